@@ -1,0 +1,113 @@
+#ifndef graupel_coupling_exchange_h
+#define graupel_coupling_exchange_h
+
+#include <graupel/base/cost_sheet.h>
+#include <graupel/closures/scaling.h>
+#include <graupel/coupling/filter.h>
+#include <graupel/coupling/particle_transfer.h>
+#include <graupel/dem/particle_arrays.h>
+#include <graupel/fluid/flow_solver.h>
+
+namespace graupel
+{
+  /** How particles and fluid feel each other, beside the drag law. */
+  struct CouplingParameters
+  {
+    /** A length [m], or "auto": the diameter of a simulated particle. */
+    std::string filter_length = "auto";
+
+    /** Declares its entry in the section "Coupling". */
+    void declare(dealii::ParameterHandler &prm);
+    void check() const;
+
+    /** The filter length in use [m]. */
+    double length(const double simulated_diameter) const;
+  };
+
+  /**
+   * The traffic between particles and fluid, in both directions by one operator
+   * pair: a number of a particle is spread over the nodes by A^-1 W^T, a field
+   * of the nodes is felt by a particle as W S f (see Filter, ParticleTransfer).
+   * As S is self-adjoint, what the particles receive is what the fluid loses, to
+   * the accuracy of the filter.
+   *
+   *   alpha = 1 - A^-1 W^T V,  B = A^-1 W^T beta,  C = A^-1 W^T (beta v)
+   *   F_p = beta_p ((W S u)_p - v_p) - V_p (W S grad p)_p + V_p rho g
+   *
+   * The last term is buoyancy, as p is the pressure without its hydrostatic part.
+   */
+  class Exchange
+  {
+  public:
+    /** @p filter_length [m]; @p nodes and @p costs must outlive this object. */
+    Exchange(const double filter_length, const Drag &drag, const NodalSpace &nodes, CostSheet &costs);
+
+    /**
+     * Void fraction and drag coefficients from where the particles are (the
+     * store must be current) and from the slip against the fluid of the last
+     * forces(). Throws std::runtime_error, naming the place, where the void
+     * fraction or the drag coefficient cannot be.
+     */
+    void update(const ParticleStore &store, const ParticleArrays &particles);
+
+    /** What update() made. */
+    const Medium &
+    medium() const
+    {
+      return result;
+    }
+
+    /**
+     * Force of the fluid on each own particle [N], after the fluid's step
+     * through medium(); buoyancy under @p gravity [m/s^2] in a fluid of
+     * @p density [kg/m^3] included. Records the momentum_imbalance().
+     */
+    std::vector<dealii::Tensor<1, 3>> forces(const ParticleArrays &particles,
+                                             const FlowSolver     &flow,
+                                             const double          density,
+                                             const double          gravity);
+
+    /** |momentum that the fluid lost - what the particles got| over the former [-]. */
+    double
+    momentum_imbalance() const
+    {
+      return momentum_error;
+    }
+
+    /** |solid volume on the mesh - sum of the particle volumes| over the latter [-]. */
+    double
+    solid_volume_error() const
+    {
+      return volume_error;
+    }
+
+    /** Total force of the fluid on all particles without buoyancy [N]. */
+    const dealii::Tensor<1, 3> &
+    total_force() const
+    {
+      return fluid_force;
+    }
+
+  private:
+    void deposit_void_fraction(const ParticleArrays &particles);
+    void deposit_drag(const ParticleArrays &particles);
+    void keep_ledger(const FlowSolver &flow, const NodalVectorField &pressure_gradient);
+
+    const Drag        drag;
+    const NodalSpace &nodes;
+    CostSheet        &costs;
+    const Filter      filter;
+    ParticleTransfer  transfer;
+    Medium            result;
+    NodalVector       solid_fraction, scratch;
+
+    NodalVectorField    interstitial;          // u [m/s]
+    NodalVectorField    smooth_velocity;       // S u [m/s]
+    NodalVectorField    smooth_gradient;       // S grad p [Pa/m]
+    std::vector<double> volume, beta;          // by row [m^3], [kg/s]
+    dealii::Tensor<1, 3> fluid_force;
+    double              momentum_error = 0., volume_error = 0.;
+  };
+} // namespace graupel
+
+#endif

@@ -1,0 +1,44 @@
+#ifndef graupel_coupling_particle_transfer_h
+#define graupel_coupling_particle_transfer_h
+
+#include <graupel/dem/particle_store.h>
+#include <graupel/mesh/nodal_space.h>
+
+namespace graupel
+{
+  /**
+   * The weights w_pk = psi_k(x_p) of this rank's particles on the nodes, used
+   * both ways: deposit() is W^T, sample() is W.
+   */
+  class ParticleTransfer
+  {
+  public:
+    /** @p nodes must outlive this object. */
+    explicit ParticleTransfer(const NodalSpace &nodes);
+
+    /** Takes over where the particles are, as of the store's last migration. */
+    void update(const ParticleStore &store);
+
+    /** W^T v: @p values has a number for each own particle; @p sums is overwritten. */
+    void deposit(NodalVector &sums, const std::vector<double> &values) const;
+
+    /** W f at each own particle; the ghosts of @p field must be up to date. */
+    void sample(std::vector<double> &values, const NodalVector &field) const;
+
+  private:
+    static constexpr unsigned int n_nodes = dealii::GeometryInfo<3>::vertices_per_cell;
+
+    struct Cell
+    {
+      unsigned int                                 first_row, end_row;
+      std::vector<dealii::types::global_dof_index> nodes;
+      std::array<unsigned int, n_nodes>            local_nodes;
+    };
+
+    const NodalSpace                        &nodes;
+    std::vector<Cell>                        cells;
+    std::vector<std::array<double, n_nodes>> weights; // by row
+  };
+} // namespace graupel
+
+#endif

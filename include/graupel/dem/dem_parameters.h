@@ -1,0 +1,115 @@
+#ifndef graupel_dem_dem_parameters_h
+#define graupel_dem_dem_parameters_h
+
+#include <graupel/dem/contact_laws.h>
+#include <graupel/mesh/cylinder.h>
+
+#include <deal.II/base/parameter_handler.h>
+
+#include <string>
+
+namespace graupel
+{
+  /** The spheres. */
+  struct ParticleParameters
+  {
+    /** Diameter of the original particles, which the drag laws see [m]. */
+    double diameter = 1.6e-3;
+    /** Diameter of a simulated particle over that of an original one [-]. */
+    double scale = 1.;
+    /** Density of the solid [kg/m^3]. */
+    double density = 2700.;
+    /** Acceleration of gravity, along -z [m/s^2]. */
+    double gravity = 9.81;
+
+    /** Radius of a simulated particle [m]. */
+    double
+    simulated_radius() const
+    {
+      return 0.5 * scale * diameter;
+    }
+
+    /** Mass of a simulated particle [kg]. */
+    double simulated_mass() const;
+
+    /** Declares the section "Particles". */
+    void declare(dealii::ParameterHandler &prm);
+    void check(const Cylinder &cylinder) const;
+  };
+
+  /** The laws of contact and their numbers. */
+  struct ContactParameters
+  {
+    /** "hertz-mindlin" or "linear-spring". */
+    std::string model = "hertz-mindlin";
+    /** "spring-dashpot", "constant-torque" or "none". */
+    std::string rolling_model = "spring-dashpot";
+
+    Elasticity particle_elasticity{1e7, 0.33};
+    Elasticity wall_elasticity{1e7, 0.33};
+    Surface    particle_surface{0.5, 0.5, 0.1};
+    Surface    wall_surface{0.5, 0.5, 0.1};
+    /** Friction and rolling resistance [-] while the bed is filled and settles. */
+    double packing_particle_friction = 0.08;
+    double packing_particle_rolling  = 0.;
+    double packing_wall_friction     = 0.08;
+    double packing_wall_rolling      = 0.;
+
+    /** Normal stiffness of the linear law [N/m]. */
+    double normal_stiffness = 1000.;
+    /** Tangential over normal stiffness of the linear law [-]. */
+    double stiffness_ratio = 2. / 7.;
+    /** Substep over the characteristic time [-]. */
+    double time_fraction = 0.2;
+    /** Substep [s]; zero: by time_fraction. */
+    double substep = 0.;
+    /** Skin of the neighbour list over the particle diameter [-]. */
+    double skin = 0.25;
+
+    /** Declares the section "Contact". */
+    void declare(dealii::ParameterHandler &prm);
+    void check() const;
+
+  private:
+    void declare_laws(dealii::ParameterHandler &prm);
+    void declare_surfaces(dealii::ParameterHandler &prm);
+    void declare_steps(dealii::ParameterHandler &prm);
+  };
+
+  /** All that the solver of the particles needs to be told. */
+  struct DemParameters
+  {
+    ParticleParameters particles;
+    ContactParameters  contact;
+
+    void declare(dealii::ParameterHandler &prm);
+    /** Throws InputError for values that cannot be, alone or together. */
+    void check(const Cylinder &cylinder) const;
+
+    /**
+     * The time that bounds the substep [s]: the Rayleigh time of a particle, or
+     * sqrt(m/k_n) for linear springs.
+     */
+    double characteristic_time() const;
+    /** The longest substep that is used [s]. */
+    double substep() const;
+    /**
+     * Force of a contact between two particles at an overlap of 10 % of their
+     * radius [N].
+     */
+    double reference_force() const;
+    /** Overlap that a static force makes between two particles [m]. */
+    double overlap_under(const double force) const;
+
+    NormalLaws  normal_law() const;
+    RollingLaws rolling_law() const;
+    /** Numbers of contacts, with the friction of packing or that of the flow. */
+    PairMaterial particle_pair(const bool packing) const;
+    PairMaterial wall_pair(const bool packing) const;
+
+    /** Substep over the characteristic time above which a run is refused [-]. */
+    static constexpr double largest_time_fraction = 0.4;
+  };
+} // namespace graupel
+
+#endif

@@ -1,0 +1,88 @@
+#ifndef graupel_dem_filling_h
+#define graupel_dem_filling_h
+
+#include <graupel/dem/dem.h>
+
+#include <random>
+
+namespace graupel
+{
+  /** How the bed is filled: a rain of particles from below the top. */
+  struct FillingParameters
+  {
+    /** Number of simulated particles [-]; 0: not by number. */
+    unsigned int count = 0;
+    /** Mass of all particles [kg]; 0: not by mass. */
+    double mass = 0.;
+    /** Height of the bed [m]; 0: not by height. */
+    double bed_height = 0.152;
+    /** Downward speed at which particles start [m/s]. */
+    double drop_speed = 1.;
+    /** Time between two layers of the rain [s]; 0: as soon as there is room. */
+    double interval = 0.;
+    /** Start of the random numbers [-]. */
+    unsigned int seed = 1;
+
+    /** Declares the section "Filling". */
+    void declare(dealii::ParameterHandler &prm);
+    /** Throws InputError for values that cannot be, alone or together. */
+    void check(const Cylinder &cylinder, const ParticleParameters &particles) const;
+  };
+
+  /**
+   * The phase that fills the column. In intervals a layer of spheres appears
+   * below the top, each at random where it overlaps nothing, and falls. The
+   * places are the same on any number of ranks.
+   *
+   * Constructing it puts the materials of packing in force.
+   */
+  class Filling
+  {
+  public:
+    /** @p dem must outlive this object. */
+    Filling(const FillingParameters &parameters, Dem &dem);
+
+    /**
+     * Goes on by about a millisecond. Returns false, doing nothing, when all
+     * particles are in. Throws DemError if the column is full before that.
+     * Collective.
+     */
+    bool step();
+
+    /** Time since the beginning of the phase [s]. */
+    double
+    time() const
+    {
+      return elapsed;
+    }
+
+    /** How much of the particles is in [-], 0 to 1; an estimate if by height. */
+    double progress() const;
+
+    /**
+     * Height that the bed would have if all particles now in the column rested
+     * at the bulk density of the bed [m]. Collective.
+     */
+    double expected_height() const;
+
+  private:
+    unsigned int                  n_missing();
+    void                          drop_layer(const unsigned int at_most);
+    std::vector<dealii::Point<3>> particles_above(const double z) const;
+    double                        next_random();
+
+    const FillingParameters input;
+    Dem                    &dem;
+    const double            radius;
+    const double            layer_interval;
+    std::mt19937_64         generator;
+
+    unsigned int target          = 0;
+    double       elapsed         = 0.;
+    double       next_drop       = 0.;
+    unsigned int barren_layers   = 0;
+    bool         finished        = false;
+  };
+} // namespace graupel
+
+#endif

@@ -1,0 +1,95 @@
+#ifndef graupel_fluid_flow_kernel_h
+#define graupel_fluid_flow_kernel_h
+
+#include <deal.II/base/tensor.h>
+#include <deal.II/lac/full_matrix.h>
+#include <deal.II/lac/vector.h>
+
+#include <array>
+
+/**
+ * The volume-averaged Navier-Stokes equations at a quadrature point (model A:
+ * both phases share the pressure gradient). Unknowns: the volumetric flux
+ * q = alpha u and the pressure p, without its hydrostatic part,
+ *
+ *   rho dq/dt + rho div(q q / alpha) = -alpha grad p + div(alpha tau(u)) - (B u - C)
+ *   div q = -d(alpha)/dt,
+ *
+ * with u = q / alpha node by node, B [kg/m^3/s] the drag coefficient and
+ * C [N/m^3] the drag that the particles' own velocity takes back. The nodal
+ * drag itself is diagonal and added by the solver; here it enters the residual
+ * of the stabilisation.
+ */
+namespace graupel
+{
+  constexpr unsigned int nodes_per_cell    = 8;
+  constexpr unsigned int unknowns_per_node = 4;
+
+  /** Constants of one assembly. */
+  struct FlowCoefficients
+  {
+    /** Density [kg/m^3]. */
+    double density;
+    /** Dynamic viscosity [Pa s]. */
+    double viscosity;
+    /** Weight of the new flux in dq/dt [1/s]. */
+    double rate;
+    /** Factor of the grad-div term [-]. */
+    double grad_div;
+  };
+
+  /** What the nodes of one cell know, old flux (lagged) included. */
+  struct CellState
+  {
+    /** Cube root of the cell's volume [m]. */
+    double                                               size;
+    std::array<double, nodes_per_cell>                   void_fraction;
+    /** B / alpha, the resistance to the flux [kg/m^3/s]. */
+    std::array<double, nodes_per_cell>                   resistance;
+    /** d(alpha)/dt [1/s]. */
+    std::array<double, nodes_per_cell>                   void_fraction_rate;
+    /** The flux that carries momentum, of the last step [m/s]. */
+    std::array<dealii::Tensor<1, 3>, nodes_per_cell>     flux;
+    /** The known part of dq/dt [m/s^2]. */
+    std::array<dealii::Tensor<1, 3>, nodes_per_cell>     history;
+    /** C [N/m^3]. */
+    std::array<dealii::Tensor<1, 3>, nodes_per_cell>     drag_source;
+  };
+
+  /** Basis functions at one quadrature point. */
+  struct ShapePoint
+  {
+    /** Weight, with the Jacobian [m^3]. */
+    double                                           weight;
+    std::array<double, nodes_per_cell>               value;
+    /** [1/m] */
+    std::array<dealii::Tensor<1, 3>, nodes_per_cell> gradient;
+  };
+
+  /**
+   * Stabilisation time scale over density [m^3 s/kg],
+   *
+   *   tau = [(rho rate + R)^2 + (2 rho |u| / h)^2 + (12 mu / h^2)^2]^(-1/2),
+   *
+   * with R = B / alpha. Containing the drag, it keeps the pressure drop of a bed
+   * independent of the time step.
+   * Source: Tezduyar & Osawa (2000), doi:10.1016/S0045-7825(00)00211-5, with the drag
+   * added to the reaction.
+   */
+  double stabilization_time(const FlowCoefficients &coefficients,
+                            const double            resistance,
+                            const double            speed,
+                            const double            size);
+
+  /**
+   * Adds one quadrature point to the cell's linear system. Unknown number
+   * 4 a + c is component c (three of q, then p) at node a.
+   */
+  void add_flow_point(const FlowCoefficients     &coefficients,
+                      const CellState            &state,
+                      const ShapePoint           &point,
+                      dealii::FullMatrix<double> &matrix,
+                      dealii::Vector<double>     &rhs);
+} // namespace graupel
+
+#endif

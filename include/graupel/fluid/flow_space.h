@@ -1,0 +1,83 @@
+#ifndef graupel_fluid_flow_space_h
+#define graupel_fluid_flow_space_h
+
+#include <graupel/fluid/flow_kernel.h>
+#include <graupel/mesh/nodal_space.h>
+
+#include <deal.II/fe/fe_system.h>
+#include <deal.II/lac/trilinos_sparse_matrix.h>
+#include <deal.II/lac/trilinos_sparsity_pattern.h>
+
+namespace graupel
+{
+  /** Three numbers a node. */
+  using NodalVectorField = std::array<NodalVector, 3>;
+
+  /**
+   * The flow's unknowns on the nodes, and everything about them that depends on
+   * the mesh alone and is computed once: numbering, basis functions at the
+   * quadrature points, the discrete gradient.
+   *
+   * Local numbering: flux component c of local node k is number 3 k + c of block
+   * 0, its pressure number k of block 1.
+   */
+  class FlowSpace
+  {
+  public:
+    using LocalNodes = std::array<unsigned int, nodes_per_cell>;
+
+    /** A quadrature point on the bottom or the top. */
+    struct FacePoint
+    {
+      /** Number of the cell among the owned cells. */
+      unsigned int cell;
+      /** Weight, with the Jacobian [m^2]. */
+      double weight;
+      /** Basis functions [-]. */
+      std::array<double, nodes_per_cell> value;
+    };
+
+    /** @p nodes must outlive this object. */
+    explicit FlowSpace(const NodalSpace &nodes);
+
+    /** Owned cells of this rank. */
+    unsigned int
+    n_cells() const
+    {
+      return cell_nodes.size();
+    }
+
+    const NodalSpace             &nodes;
+    const dealii::FESystem<3>     fe;
+    dealii::DoFHandler<3>         dof_handler;
+    /** Owned and relevant unknowns, by block. */
+    std::vector<dealii::IndexSet> owned, relevant;
+
+    /** By owned cell: its unknowns, its nodes as local indices of a NodalVector, its size [m]. */
+    std::vector<std::vector<dealii::types::global_dof_index>> cell_unknowns;
+    std::vector<LocalNodes>                                   cell_nodes;
+    std::vector<double>                                       cell_sizes;
+    /** Quadrature points, cell after cell. */
+    std::vector<ShapePoint> shapes;
+    unsigned int            points_per_cell;
+    std::vector<FacePoint>  bottom, top;
+
+    /**
+     * By component: integral of psi_k dp/dx_i over the cells, minus
+     * integral of psi_k n_i p over the top [m^2]; its transpose is minus the
+     * divergence of the continuity equation.
+     */
+    std::array<dealii::TrilinosWrappers::SparseMatrix, 3> gradient;
+
+    /** The pattern of a matrix that couples nodes which share a cell. */
+    dealii::TrilinosWrappers::SparsityPattern nodal_pattern;
+
+  private:
+    void number_unknowns();
+    void store_cells();
+    void store_faces();
+    void assemble_gradient();
+  };
+} // namespace graupel
+
+#endif

@@ -1,0 +1,90 @@
+#ifndef graupel_mesh_cylinder_h
+#define graupel_mesh_cylinder_h
+
+#include <deal.II/base/parameter_handler.h>
+#include <deal.II/distributed/tria.h>
+#include <deal.II/fe/mapping_q.h>
+
+namespace graupel
+{
+  /** The vessel: a circular cylinder that stands on z = 0, its axis along z. */
+  struct Cylinder
+  {
+    /** Inner diameter [m]. */
+    double diameter = 0.025;
+    /** Height from the bottom (z = 0) to the top [m]. */
+    double height = 0.169;
+
+    /** Area of the empty cross-section [m^2]. */
+    double cross_section() const;
+
+    void declare(dealii::ParameterHandler &prm);
+    /** Throws InputError unless both lengths are positive. */
+    void check() const;
+  };
+
+  /** How finely the cylinder is cut into hexahedra. */
+  struct MeshParameters
+  {
+    /** Aimed-at edge length of a cell along the axis and across [m]. */
+    double cell_size = 3.2e-3;
+
+    void declare(dealii::ParameterHandler &prm);
+    void check(const Cylinder &cylinder) const;
+  };
+
+  /**
+   * A distributed mesh of hexahedra (a p4est forest) that fills the cylinder
+   * exactly up to the order of the mapping.
+   *
+   * The mapping has degree 2: degree 1 would cut 2.5 % of the volume off at
+   * the wall, and lose particles that lie there.
+   */
+  class CylinderMesh
+  {
+  public:
+    /** Boundary ids. */
+    enum Boundary : dealii::types::boundary_id
+    {
+      wall   = 0,
+      bottom = 1,
+      top    = 2
+    };
+
+    CylinderMesh(const Cylinder &cylinder, const MeshParameters &parameters, MPI_Comm communicator);
+
+    const dealii::parallel::distributed::Triangulation<3> &
+    triangulation() const
+    {
+      return forest;
+    }
+
+    const dealii::Mapping<3> &
+    mapping() const
+    {
+      return quadratic;
+    }
+
+    const Cylinder &
+    cylinder() const
+    {
+      return vessel;
+    }
+
+    MPI_Comm
+    communicator() const
+    {
+      return forest.get_communicator();
+    }
+
+    /** The smallest distance between two vertices of one cell, over all ranks [m]. */
+    double smallest_edge() const;
+
+  private:
+    Cylinder                                         vessel;
+    dealii::parallel::distributed::Triangulation<3> forest;
+    dealii::MappingQ<3>                              quadratic;
+  };
+} // namespace graupel
+
+#endif

@@ -1,0 +1,52 @@
+#ifndef graupel_mesh_nodal_space_h
+#define graupel_mesh_nodal_space_h
+
+#include <graupel/mesh/cylinder.h>
+
+#include <deal.II/base/quadrature.h>
+#include <deal.II/dofs/dof_handler.h>
+#include <deal.II/fe/fe_q.h>
+#include <deal.II/lac/affine_constraints.h>
+#include <deal.II/lac/la_parallel_vector.h>
+
+namespace graupel
+{
+  /** One number a node: owned nodes of this rank, ghosts readable on request. */
+  using NodalVector = dealii::LinearAlgebra::distributed::Vector<double>;
+
+  /**
+   * The nodes of the mesh and their trilinear basis functions psi_k: the
+   * partition of unity on which void fraction, drag and the flow live.
+   */
+  class NodalSpace
+  {
+  public:
+    /** @p mesh must outlive this object. */
+    explicit NodalSpace(const CylinderMesh &mesh);
+
+    const CylinderMesh                       &mesh;
+    const dealii::FE_Q<3>                     fe;
+    /** The rule that all integrals over cells share, so that sums of them agree to round-off. */
+    const dealii::Quadrature<3>               quadrature;
+    dealii::DoFHandler<3>                     dof_handler;
+    dealii::AffineConstraints<double>         hanging_nodes;
+    dealii::IndexSet                          owned;
+    dealii::IndexSet                          relevant;
+
+    /** Makes @p vector a zero vector of the nodes, with room for ghosts. */
+    void initialize(NodalVector &vector) const;
+
+    /** Volume of each node, m_k = integral of psi_k [m^3], ghosts up to date. */
+    const NodalVector &
+    measure() const
+    {
+      return volumes;
+    }
+
+  private:
+    std::shared_ptr<const dealii::Utilities::MPI::Partitioner> partitioner;
+    NodalVector                                                volumes;
+  };
+} // namespace graupel
+
+#endif

@@ -1,0 +1,65 @@
+#ifndef graupel_simulation_packed_bed_h
+#define graupel_simulation_packed_bed_h
+
+#include <graupel/base/progress.h>
+#include <graupel/simulation/result_files.h>
+#include <graupel/simulation/run_parameters.h>
+#include <graupel/simulation/summary.h>
+
+namespace graupel
+{
+  /**
+   * A packed-bed run, in its order of events: fill the vessel, let the bed
+   * settle, drive the fluid through it at one superficial velocity after the
+   * other, write down what happened.
+   */
+  class PackedBed
+  {
+  public:
+    /**
+     * @p parameters are checked; @p files and @p progress must outlive this object.
+     * @p parameter_file is named in the summary.
+     */
+    PackedBed(const RunParameters &parameters,
+              const std::string   &parameter_file,
+              ResultFiles         &files,
+              Progress            &progress,
+              MPI_Comm             communicator);
+
+    /** Runs to the end and writes all files but report.html. Collective. */
+    void run();
+
+  private:
+    void fill();
+    void settle();
+    void flow();
+
+    CaseResult   run_case(const double superficial_velocity);
+    unsigned int step_fluid(const double step);
+    MonitorRow   monitor(const std::string &phase) const;
+    void         write_fields_if_due();
+    void         evaluate(CaseResult &result, const unsigned int number);
+    void         write_summary_file();
+
+    const RunParameters parameters;
+    ResultFiles        &files;
+    Progress           &progress;
+    const MPI_Comm      communicator;
+
+    Summary        summary;
+    CylinderMesh   mesh;
+    NodalSpace     nodes;
+    Dem            dem;
+    BedObservables observables;
+    FlowSolver     fluid;
+    Exchange       exchange;
+
+    double                  time = 0.; // simulated, since the run began [s]
+    double                  next_output;
+    FlowSolver::Report      last_report;
+    std::vector<MonitorRow> case_rows;
+    const double            started;
+  };
+} // namespace graupel
+
+#endif

@@ -1,0 +1,83 @@
+#ifndef graupel_simulation_result_files_h
+#define graupel_simulation_result_files_h
+
+#include <graupel/dem/dem.h>
+#include <graupel/fluid/flow_solver.h>
+#include <graupel/simulation/case_result.h>
+#include <graupel/simulation/profiles.h>
+
+#include <fstream>
+
+namespace graupel
+{
+  /**
+   * The output directory of a run: every file in it is written here. What each
+   * file holds is told in doc/output-files.md. Rank 0 writes, but for the
+   * ParaView files, which all ranks write together.
+   */
+  class ResultFiles
+  {
+  public:
+    /**
+     * Makes the directory, or takes the results of an earlier run out of it.
+     * Throws InputError("Output/directory", ...) if it cannot be written.
+     * Collective.
+     */
+    ResultFiles(const std::string &directory, MPI_Comm communicator);
+
+    /** log.txt; writes nothing on ranks other than 0. */
+    std::ostream &
+    log()
+    {
+      return log_stream;
+    }
+
+    /** parameters.prm: every value in use, in a form that can be run again. */
+    void write_parameters(const dealii::ParameterHandler &prm);
+
+    /** Adds a row to monitors.csv. */
+    void add_monitor(const MonitorRow &row);
+
+    /** cases.csv, anew. */
+    void write_cases(const std::vector<CaseResult> &cases);
+
+    /** profiles-NN.csv of the flow case @p number, from 1 on, beside Ergun's pressure. */
+    void write_axial(const unsigned int              number,
+                     const std::vector<RegionMean>  &profile,
+                     const CaseResult               &result);
+
+    /** radial-NN.csv; @p radius of the vessel [m]. */
+    void write_radial(const unsigned int             number,
+                      const std::vector<RegionMean> &profile,
+                      const double                   radius);
+
+    /** midplane-NN.csv. */
+    void write_mid_plane(const unsigned int number, const std::vector<PlanePoint> &points);
+
+    /** Adds the fields at @p time [s] to solution.pvd. Collective. */
+    void add_fields(const double      time,
+                    const NodalSpace &nodes,
+                    const Medium     &medium,
+                    const FlowSolver &flow);
+
+    /** Adds the particles at @p time [s] to particles.pvd. Collective. */
+    void add_particles(const double time, const ParticleArrays &particles);
+
+    /** A file of the directory. */
+    std::string path(const std::string &name) const;
+
+  private:
+    using Records = std::vector<std::pair<double, std::string>>;
+
+    std::ofstream open(const std::string &name) const;
+    void          write_records(const std::string &name, const Records &records) const;
+
+    const std::string directory;
+    const MPI_Comm    communicator;
+    const bool        is_writer;
+    std::ofstream     log_stream, monitors;
+    Records           field_records, particle_records;
+  };
+} // namespace graupel
+
+#endif

@@ -1,0 +1,45 @@
+#ifndef graupel_simulation_run_parameters_h
+#define graupel_simulation_run_parameters_h
+
+#include <graupel/coupling/exchange.h>
+#include <graupel/dem/filling.h>
+#include <graupel/dem/settling.h>
+#include <graupel/simulation/sweep_parameters.h>
+
+namespace graupel
+{
+  /** Everything that a parameter file says: read once, const ever after. */
+  struct RunParameters
+  {
+    Cylinder           cylinder;
+    MeshParameters     mesh;
+    DemParameters      dem;
+    FillingParameters  filling;
+    SettlingParameters settling;
+    FluidProperties    fluid;
+    DragParameters     drag;
+    CouplingParameters coupling;
+    FlowParameters     flow;
+    SweepParameters    sweep;
+    OutputParameters   output;
+
+    /** Declares every section of the parameter file. */
+    void declare(dealii::ParameterHandler &prm);
+
+    /** Throws InputError for values that cannot be, alone or together. */
+    void check() const;
+
+    /** Diameter of a simulated particle [m]. */
+    double simulated_diameter() const;
+    /** Filter length in use [m]. */
+    double filter_length() const;
+
+    /**
+     * What --check tells: the dimensionless groups, the sizes and the step
+     * sizes that follow from the parameters.
+     */
+    std::string describe() const;
+  };
+} // namespace graupel
+
+#endif

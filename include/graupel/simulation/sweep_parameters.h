@@ -1,0 +1,57 @@
+#ifndef graupel_simulation_sweep_parameters_h
+#define graupel_simulation_sweep_parameters_h
+
+#include <deal.II/base/parameter_handler.h>
+
+#include <string>
+#include <vector>
+
+namespace graupel
+{
+  /** The flow phase: which superficial velocities, for how long. */
+  struct SweepParameters
+  {
+    /** One flow case each, run one after the other on the same bed [m/s]. */
+    std::vector<double> superficial_velocities{0.271, 0.320, 0.368, 0.423, 0.476, 0.534};
+    /** Step of the fluid, and of the exchange with the particles [s]. */
+    double time_step = 5e-3;
+    /** "flow-throughs" or "steady": when a case ends. */
+    std::string stop_when = "flow-throughs";
+    /** Times that the superficial velocity crosses the vessel's height [-]. */
+    double flow_throughs = 2.;
+    /** Relative change over the steady window below which a monitor is steady [-]. */
+    double steady_tolerance = 1e-3;
+    /** [s] */
+    double steady_window = 0.1;
+    /** Longest duration of a case that ends when steady [s]. */
+    double maximum_time = 10.;
+
+    /** Duration of a case at most [s]. */
+    double case_duration(const double superficial_velocity, const double height) const;
+
+    /** Declares the section "Flow". */
+    void declare(dealii::ParameterHandler &prm);
+    void check() const;
+  };
+
+  /** What is written, and where. */
+  struct OutputParameters
+  {
+    /** Directory of the results; made if it does not exist. */
+    std::string directory = "output";
+    /** Time between two sets of ParaView files beside those at the ends of phases and cases; 0: none [s]. */
+    double interval = 0.;
+    /** Points across the vessel of the mid-plane file [-]. */
+    unsigned int midplane_points = 51;
+    /** Annuli of the radial file [-]. */
+    unsigned int annuli = 16;
+    /** Whether report.html is made at the end. */
+    bool report = true;
+
+    /** Declares the section "Output". */
+    void declare(dealii::ParameterHandler &prm);
+    void check() const;
+  };
+} // namespace graupel
+
+#endif

@@ -1,0 +1,89 @@
+#!/usr/bin/python3
+"""Writes report.html from the output directory of a run.
+
+    scripts/report.py OUTPUT_DIR
+
+The report is one file with its figures inside; they also go to
+OUTPUT_DIR/figures as PNG. What is missing in the directory is named on
+standard error and in the report, and the rest is shown. Needs Debian's
+python3-matplotlib. Exit status: 0 if a report was written, 1 if nothing of a
+run was found or the report could not be written, 2 for a wrong call.
+"""
+
+import argparse
+import sys
+from pathlib import Path
+
+try:
+    from report_parts import figures_bed, figures_inside, figures_run, page, reference, style
+    from report_parts.run_output import read_run
+except ImportError as error:
+    sys.exit(f"report.py: {error}. The report needs Debian's python3-matplotlib.")
+
+FIGURES = {
+    "pressure-profile": figures_bed.pressure_profile,
+    "pressure-drop": figures_bed.pressure_drop,
+    "deviation": figures_bed.deviation,
+    "bottom-force": figures_bed.bottom_force,
+    "bed-height": figures_bed.bed_height,
+    "void-fraction": figures_inside.void_fraction,
+    "flux": figures_inside.flux,
+    "radial": figures_inside.radial,
+    "monitors": figures_run.monitors,
+    "cost": figures_run.cost,
+}
+
+
+def make_figures(run, paper, folder):
+    """Every figure rendered, or the reason why it is not there, by name."""
+    folder.mkdir(exist_ok=True)
+    shown = {}
+    for name, make in FIGURES.items():
+        try:
+            shown[name] = style.render(make(run, paper), name, folder)
+        except style.NothingToShow as reason:
+            shown[name] = str(reason)
+        # One figure that cannot be drawn from odd data must not take the
+        # others with it; the reader is told.
+        except Exception as error:
+            shown[name] = f"{type(error).__name__}: {error}"
+            run.notices.append(f"The figure {name} could not be drawn ({shown[name]}).")
+        if isinstance(shown[name], str):
+            # A figure of an earlier report would pass for one of this run.
+            (folder / f"{name}.png").unlink(missing_ok=True)
+    return shown
+
+
+def write_report(directory):
+    """Reads the run in @p directory and writes its report; returns the exit status."""
+    run = read_run(directory)
+    if run.empty():
+        print(f"report.py: {directory} holds no output of a run.", file=sys.stderr)
+        return 1
+    paper = reference.paper_for(run)
+    try:
+        figures = make_figures(run, paper, directory / "figures")
+        (directory / "report.html").write_text(page.page(run, paper, figures), encoding="utf-8")
+    except OSError as error:
+        print(f"report.py: the report cannot be written: {error}.", file=sys.stderr)
+        return 1
+    for notice in run.notices:
+        print(f"report.py: {notice}", file=sys.stderr)
+    print(directory / "report.html")
+    return 0
+
+
+def main():
+    """Reads the command line; returns the exit status."""
+    parser = argparse.ArgumentParser(description="Writes report.html from the output of a run.")
+    parser.add_argument(
+        "output_dir", type=Path, metavar="OUTPUT_DIR", help="output directory of a run"
+    )
+    directory = parser.parse_args().output_dir
+    if not directory.is_dir():
+        parser.error(f"{directory} is no directory")
+    return write_report(directory)
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,252 @@
+"""Figures of the bed as a whole: pressure, deviation from Ergun, forces and height."""
+
+import numpy as np
+
+from . import reference
+from .style import (
+    BLACK,
+    BLUE,
+    GREEN,
+    GREY,
+    MILLI,
+    ORANGE,
+    PERCENT,
+    PURPLE,
+    VERMILLION,
+    NothingToShow,
+    colour_of_each,
+    column,
+    known,
+    need_cases,
+    new_figure,
+    plot_cases,
+    velocity_axis,
+)
+
+
+def label_of(run, number):
+    """Name of a case in a legend."""
+    case = run.case(number)
+    if case is None or case["superficial_velocity"] is None:
+        return f"case {number}"
+    lifted = ", lifted" if case["fluidized"] else ""
+    return f"case {number}: {case['superficial_velocity']:.3f} m/s{lifted}"
+
+
+def pressure_profile(run, paper):
+    """Section-averaged pressure along the axis against Ergun's line, and the void fraction."""
+    if not run.profiles:
+        raise NothingToShow("no profiles-NN.csv was found")
+    figure = new_figure(height=5.2)
+    upper, lower = figure.subplots(2, 1, sharex=True, height_ratios=(2.4, 1.0))
+    colours = colour_of_each(len(run.profiles))
+    for colour, (number, table) in zip(colours, sorted(run.profiles.items())):
+        z = table["z"] * MILLI
+        upper.plot(z, table["pressure"], color=colour, label=label_of(run, number))
+        upper.plot(z, table["ergun_pressure"], "--", color=colour, linewidth=1.0)
+        lower.plot(z, table["void_fraction"], color=colour, linewidth=1.1)
+    upper.plot([], [], "--", color=GREY, linewidth=1.0, label="Ergun")
+    height = run.number("bed", "height")
+    if height is not None:
+        for axes in (upper, lower):
+            axes.axvline(height * MILLI, color=GREY, linestyle=":", linewidth=1.0)
+        lower.annotate(
+            "top of the bed at rest",
+            (height * MILLI, 0.1),
+            ha="right",
+            xytext=(-4, 0),
+            textcoords="offset points",
+            fontsize=7.5,
+            color=GREY,
+        )
+    upper.set_ylabel("pressure over outlet [Pa]")
+    upper.set_ylim(bottom=min(0.0, upper.get_ylim()[0]))
+    upper.legend(
+        loc="upper right",
+        ncols=2 if len(run.profiles) > 8 else 1,
+        frameon=True,
+        framealpha=1.0,
+        edgecolor="white",
+    )
+    lower.set_ylabel("void fraction [-]")
+    lower.set_ylim(0.0, 1.05)
+    lower.set_xlabel("height over the bottom z [mm]")
+    lower.margins(x=0.01)
+    return figure
+
+
+def pressure_drop(run, paper):
+    """Pressure drop against superficial velocity: computed, Ergun, paper, weight per area."""
+    need_cases(run.cases)
+    figure = new_figure()
+    axes = figure.subplots()
+    velocity = column(run.cases, "superficial_velocity")
+    last = np.nanmax(velocity)
+    smooth = np.linspace(0.0, 1.06 * last, 120)
+    curve = reference.ergun_curve(run, smooth)
+    if curve is not None:
+        axes.plot(smooth, curve, color=GREY, linewidth=1.2, label="Ergun, this bed at rest")
+    own = column(run.cases, "ergun_pressure_drop")
+    axes.plot(velocity, own, "_", color=BLACK, markersize=11, label="Ergun, bed of each case")
+    if paper is not None:
+        axes.plot(
+            paper.velocity,
+            paper.ergun,
+            "D",
+            markersize=6.5,
+            markerfacecolor="none",
+            markeredgecolor=VERMILLION,
+            label=f"Ergun in the paper's Table 1 ({paper.scale}X)",
+        )
+    plot_cases(axes, run.cases, column(run.cases, "pressure_drop"), BLUE, "computed")
+    weight = reference.weight_per_area(run)
+    if weight is not None:
+        axes.axhline(weight, color=PURPLE, linestyle="--", linewidth=1.1)
+        axes.annotate(
+            "weight of the bed over the cross-section",
+            (0.0, weight),
+            xycoords=("axes fraction", "data"),
+            xytext=(4, 3),
+            textcoords="offset points",
+            fontsize=8,
+            color=PURPLE,
+        )
+    velocity_axis(axes)
+    axes.set_xlim(0.0, 1.06 * last)
+    axes.set_ylabel("pressure drop [Pa]")
+    axes.set_ylim(bottom=0.0)
+    axes.legend(loc="lower right")
+    return figure
+
+
+def limits_of_deviation(cases, curves, paper):
+    """Range of the axis [%]: the fixed beds and the paper's band, not what a lifted bed does."""
+    fixed = np.array([case["fluidized"] is not True for case in cases], dtype=bool)
+    shown = [values[fixed] for values in curves]
+    inside = np.concatenate(shown) if np.any(fixed) else np.concatenate(curves)
+    inside = np.append(inside[np.isfinite(inside)], 0.0)
+    if paper is not None:
+        inside = np.append(inside, np.array(paper.band) * PERCENT)
+    margin = max(0.5, 0.15 * np.ptp(inside))
+    return inside.min() - margin, inside.max() + margin
+
+
+def mark_outside(axes, cases, values, limits, colour):
+    """Writes the value of points that lie off the axis at its edge."""
+    for case, value in zip(cases, values):
+        if not np.isfinite(value) or limits[0] <= value <= limits[1]:
+            continue
+        below = value < limits[0]
+        axes.annotate(
+            f"{'↓' if below else '↑'} {value:+.1f} %".replace("-", "−"),
+            (case["superficial_velocity"], limits[0 if below else 1]),
+            xytext=(0, 4 if below else -10),
+            textcoords="offset points",
+            ha="center",
+            fontsize=8,
+            color=colour,
+        )
+
+
+def deviation(run, paper):
+    """Relative deviation from Ergun: whole bed, middle half, and what the wall predicts."""
+    need_cases(run.cases)
+    curves = [
+        ("deviation_from_ergun", BLUE, "o", "-", "whole bed"),
+        ("gradient_deviation_from_ergun", VERMILLION, "s", "-", "gradient over the middle half"),
+        ("wall_channelling_deviation", GREEN, "^", ":", "predicted from the radial void fraction"),
+    ]
+    values = [column(run.cases, key) * PERCENT for key, *_ in curves]
+    if not any(known(array) for array in values):
+        raise NothingToShow("the cases hold no deviation from Ergun")
+    figure = new_figure(height=4.0)
+    axes = figure.subplots()
+    limits = limits_of_deviation(run.cases, values, paper)
+    if paper is not None:
+        band = np.array(paper.band) * PERCENT
+        last_fixed = paper.velocity[-2]
+        axes.fill_between(
+            [paper.velocity[0], last_fixed],
+            *band,
+            color="#DCDCDC",
+            linewidth=0,
+            label=f"the paper, {paper.scale}X: {paper.band_in_words}",
+        )
+    axes.axhline(0.0, color=GREY, linewidth=0.9)
+    for array, (_, colour, marker, line, label) in zip(values, curves):
+        if known(array):
+            plot_cases(axes, run.cases, array, colour, label, marker, line)
+    axes.set_ylim(limits)
+    whole = next(index for index, array in enumerate(values) if known(array))
+    mark_outside(axes, run.cases, values[whole], limits, curves[whole][1])
+    velocity_axis(axes)
+    axes.margins(x=0.08)
+    axes.set_ylabel("deviation from Ergun [%]")
+    axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.15), ncols=2)
+    return figure
+
+
+def bottom_force(run, paper):
+    """What the bottom and the wall carry, and what the fluid leaves for them."""
+    need_cases(run.cases)
+    bottom = column(run.cases, "bottom_force")
+    wall = column(run.cases, "wall_force")
+    left = column(run.cases, "weight") - column(run.cases, "fluid_force")
+    if not (known(bottom) or known(wall)):
+        raise NothingToShow("the cases hold no forces")
+    figure = new_figure()
+    axes = figure.subplots()
+    axes.axhline(0.0, color=GREY, linewidth=0.9)
+    velocity = column(run.cases, "superficial_velocity")
+    if known(left):
+        axes.plot(velocity, left, "--", color=GREY, linewidth=1.2, label="weight less fluid force")
+    if known(bottom) and known(wall):
+        axes.plot(velocity, bottom + wall, "x", color=BLACK, markersize=6, label="bottom + wall")
+    if known(bottom):
+        plot_cases(axes, run.cases, bottom, BLUE, "bottom")
+    if known(wall):
+        plot_cases(axes, run.cases, wall, ORANGE, "wall", marker="s")
+    if paper is not None:
+        axes.plot(
+            [paper.onset_velocity],
+            [paper.onset_bottom_force],
+            "D",
+            markersize=6.5,
+            markerfacecolor="none",
+            markeredgecolor=VERMILLION,
+            label=f"bottom in the paper at onset ({paper.scale}X)",
+        )
+    velocity_axis(axes)
+    axes.set_ylabel("contact force along the axis [N]")
+    axes.legend()
+    return figure
+
+
+def bed_height(run, paper):
+    """Height of the bed, and how far it rose, against superficial velocity."""
+    need_cases(run.cases)
+    height = column(run.cases, "bed_height") * MILLI
+    rise = column(run.cases, "bed_rise") * MILLI
+    if not (known(height) or known(rise)):
+        raise NothingToShow("the cases hold no bed height")
+    figure = new_figure(height=3.2)
+    left, right = figure.subplots(1, 2)
+    plot_cases(left, run.cases, height, BLUE, None)
+    left.set_ylabel("bed height [mm]")
+    plot_cases(right, run.cases, rise, BLUE, "computed")
+    if paper is not None:
+        right.plot(
+            [paper.onset_velocity],
+            [paper.onset_rise * MILLI],
+            "D",
+            markersize=6.5,
+            markerfacecolor="none",
+            markeredgecolor=VERMILLION,
+            label=f"the paper at onset ({paper.scale}X)",
+        )
+    right.axhline(0.0, color=GREY, linewidth=0.9)
+    right.set_ylabel("rise over the bed before the flow [mm]")
+    right.legend(loc="upper left")
+    for axes in (left, right):
+        velocity_axis(axes)
+    return figure

@@ -1,0 +1,210 @@
+"""The page: sections, captions and style sheet. Nothing in it is fetched from elsewhere."""
+
+from html import escape
+from pathlib import PurePath
+
+from . import tables, words
+
+STYLE = """
+:root { color-scheme: light; }
+body { margin: 0; background: #fff; color: #222;
+       font: 15px/1.55 system-ui, -apple-system, "Segoe UI", "Helvetica Neue", Arial, sans-serif; }
+main { max-width: 56rem; margin: 0 auto; padding: 2.5rem 1.5rem 3rem; }
+h1 { font-size: 1.7rem; font-weight: 600; margin: 0; letter-spacing: -0.01em;
+     overflow-wrap: anywhere; }
+h2 { font-size: 1.15rem; font-weight: 600; margin: 2.6rem 0 0.7rem; padding-bottom: 0.3rem;
+     border-bottom: 1px solid #ddd; }
+.under { color: #666; margin: 0.25rem 0 1.6rem; font-size: 0.87rem; }
+.summary { font-size: 1.03rem; }
+figure { margin: 1.4rem 0 1.8rem; break-inside: avoid; }
+figure img { display: block; max-width: 100%; height: auto; margin: 0 auto; }
+figcaption, .note { color: #555; font-size: 0.87rem; margin: 0.6rem 0 0; }
+.note { margin: 0.6rem 0; }
+figcaption b { color: #222; }
+.wide { overflow-x: auto; }
+table { border-collapse: collapse; font-size: 0.83rem; margin: 0.8rem 0 0.6rem; width: 100%;
+        font-variant-numeric: tabular-nums; break-inside: avoid; }
+th, td { text-align: right; padding: 0.28rem 0.6rem; }
+th { font-weight: 600; vertical-align: bottom; border-bottom: 1px solid #999; }
+th span { display: block; font-weight: 400; color: #777; }
+th.group { text-align: center; border-bottom: 1px solid #ddd; color: #555; font-weight: 400; }
+td { white-space: nowrap; }
+tbody tr { border-bottom: 1px solid #eee; }
+.notices { background: #fdf6e3; border-left: 3px solid #e69f00; padding: 0.6rem 1rem;
+           font-size: 0.87rem; margin: 1.4rem 0; }
+.notices p { margin: 0; } .notices ul { margin: 0.3rem 0 0; padding-left: 1.2rem; }
+.absent { color: #777; font-style: italic; margin: 1.2rem 0; }
+footer { color: #777; font-size: 0.8rem; border-top: 1px solid #ddd; margin-top: 3rem;
+         padding-top: 0.8rem; }
+@page { margin: 15mm; }
+@media print { body { font-size: 10pt; } main { max-width: none; padding: 0; }
+               h2 { break-after: avoid; } .wide { overflow: visible; }
+               figure img { max-width: 88%; max-height: 175mm; }
+               table { font-size: 7.5pt; } th, td { padding: 0.15rem 0.3rem; } }
+"""
+
+
+def title_of(run):
+    """What the run is called: the name of its parameter file, or of its directory."""
+    prm = run.get("program", "parameter_file")
+    name = PurePath(prm).name if isinstance(prm, str) and prm else run.directory.resolve().name
+    return f"Graupel: {name}"
+
+
+def program_line(run):
+    """Version, deal.II and ranks."""
+    name = run.get("program", "name") or "graupel"
+    parts = [f"{name} {run.get('program', 'version') or words.NONE}"]
+    parts.append(f"deal.II {run.get('program', 'deal_ii_version') or words.NONE}")
+    ranks = run.number("program", "mpi_ranks")
+    parts.append(f"{words.number(ranks, '.0f')} MPI process{'' if ranks == 1 else 'es'}")
+    parts.append(f"parameter file {run.get('program', 'parameter_file') or words.NONE}")
+    return ", ".join(str(part) for part in parts)
+
+
+def captions(run, paper):
+    """Caption of every figure, by the name of the figure."""
+    of_paper = f" Diamonds: the paper, {paper.scale}X." if paper else ""
+    return {
+        "pressure-profile": "<b>Pressure along the axis.</b> Averages over the cross-section"
+        " (lines) against Ergun's straight line with the bed's own height and mean void fraction"
+        " (dashed); below, the void fraction.",
+        "pressure-drop": "<b>Pressure drop against superficial velocity.</b> Hollow circles: the"
+        " bed has lifted. The grey curve is Ergun's equation for the bed before the flow, the"
+        " dashes use the height and void fraction of each case." + of_paper,
+        "deviation": caption_of_deviation(paper),
+        "bottom-force": caption_of_forces(paper),
+        "bed-height": "<b>Bed height.</b> The height is where the section-averaged solid fraction"
+        " falls to half of its bulk value." + of_paper,
+        "void-fraction": "<b>Void fraction on the plane y = 0,</b> lengths to scale. Dotted: bed"
+        " height. The colours are chosen for the bed; the clear fluid above it (void fraction 1)"
+        " lies beyond their end.",
+        "flux": "<b>Axial volumetric flux on the plane y = 0,</b> over the superficial velocity."
+        " Red: more than the average passes there.",
+        "radial": "<b>From the wall inwards.</b> Averages over the middle half of the bed's height"
+        " and around the axis: void fraction (left) and axial volumetric flux over the superficial"
+        " velocity (right).",
+        "monitors": "<b>The run over time.</b> Every fluid step; shading and the names on top tell"
+        " the phases, and the numbers the flow cases. Speeds, energies and imbalances are on"
+        " logarithmic axes, without their zeros.",
+        "cost": f"<b>Where the time went.</b> {escape(words.cost_sentence(run, paper))}",
+    }
+
+
+def caption_of_forces(paper):
+    """Caption of the forces on bottom and wall, with the paper's findings if they apply."""
+    text = (
+        "<b>What bottom and wall carry.</b> Positive presses down on the bottom, or hangs on the"
+        " wall; their sum must be the weight less the force of the fluid."
+    )
+    if paper is not None:
+        text += (
+            " The paper sees the bottom force fall monotonically to zero at onset; it counts it"
+            f" negative (\u2212{paper.onset_bottom_force:.3f} N there). Its onset fits particles of"
+            f" about {paper.density_at_onset:,.0f} kg/m\u00b3; those of the aluminium that it names"
+            " would lift later."
+        )
+    return text.replace(" N ", "\u00a0N ")
+
+
+def caption_of_deviation(paper):
+    """Caption of the deviation from Ergun, with the paper's findings if they apply."""
+    text = (
+        "<b>Deviation from Ergun's equation,</b> each with its own void fraction: pressure drop"
+        " over the whole bed, gradient over its middle half, and what Ergun's equation predicts"
+        " when it is summed over the radial void-fraction profile. Hollow: the bed has lifted,"
+        " and Ergun's equation no longer applies."
+    )
+    if paper is not None:
+        text += (
+            f" Grey: the paper's cases before onset at {paper.scale}X, {paper.band_in_words};"
+            " it finds up to 8 % between the two scales."
+        )
+        if paper.onset_deviation is not None:
+            text += (
+                f" At onset, {paper.onset_velocity:.3f} m/s, it reports nearly"
+                f" {abs(paper.onset_deviation) * 100:.0f} % under Ergun."
+            )
+    return text.replace(" %", "\u00a0%")
+
+
+SECTIONS = (
+    ("Pressure", ("pressure-profile", "pressure-drop")),
+    ("Deviation from Ergun", ("deviation",)),
+    ("Forces and lift", ("bottom-force", "bed-height")),
+    ("Inside the bed", ("void-fraction", "flux", "radial")),
+    ("Over time", ("monitors",)),
+    ("Cost", ("cost",)),
+)
+
+
+def figures_of(names, figures, caption, count):
+    """The figures of a section as HTML; count[0] is the number of the last figure."""
+    lines = []
+    for name in names:
+        shown = figures[name]
+        if isinstance(shown, str):
+            heading = name.replace("-", " ").capitalize()
+            lines.append(f'<p class="absent">{heading}: not shown; {escape(shown)}.</p>')
+            continue
+        count[0] += 1
+        alternative = name.replace("-", " ")
+        lines.append(
+            f'<figure id="{name}"><img alt="{alternative}" src="{shown.data_uri}">'
+            f"<figcaption>Figure {count[0]}. {caption[name]}</figcaption></figure>"
+        )
+    return lines
+
+
+def notices_of(run):
+    """What could not be read, as HTML."""
+    if not run.notices:
+        return []
+    items = "".join(f"<li>{escape(notice)}</li>" for notice in run.notices)
+    return [f'<div class="notices"><p>This report is not complete:</p><ul>{items}</ul></div>']
+
+
+def cases_section(run, paper):
+    """The tables of cases, and the paper's values."""
+    lines = ["<h2>Cases</h2>", tables.pressure_and_bed(run), tables.forces_and_cost(run)]
+    lines.append(
+        '<p class="note">Ergun: original particle diameter, superficial velocity, and the height'
+        " and mean void fraction of the bed in that case. Middle half: the pressure gradient there"
+        " against Ergun's at the void fraction there. Bottom, wall and fluid together must carry"
+        " the weight.</p>"
+    )
+    if paper is not None:
+        lines.append(tables.papers_values(run, paper))
+        lines.append(
+            f'<p class="note">Ricklick and Baran (2014), Table 1, scale {paper.scale}X; Ergun\'s'
+            " value there uses the void fraction of their bed.</p>"
+        )
+    return lines
+
+
+def page(run, paper, figures):
+    """The whole report as HTML; a figure is a Rendered, or the reason why there is none."""
+    title = escape(title_of(run))
+    caption = captions(run, paper)
+    count = [0]
+    body = [f"<h1>{title}</h1>", f'<p class="under">{escape(program_line(run))}</p>']
+    body.append(f'<p class="summary">{escape(words.summary(run))}</p>')
+    body += notices_of(run)
+    body += cases_section(run, paper)
+    for heading, names in SECTIONS:
+        body.append(f"<h2>{heading}</h2>")
+        body += figures_of(names, figures, caption, count)
+        if heading == "Deviation from Ergun":
+            body.append(f"<p>{escape(words.what_is_left(run))}</p>")
+            body.append(tables.deviation_in_parts(run))
+    body.append(
+        "<footer>The numbers are in summary.json and the CSV files beside this page, all values of"
+        " the parameters in parameters.prm, the figures as PNG in figures/.</footer>"
+    )
+    return (
+        '<!DOCTYPE html>\n<html lang="en">\n<head>\n<meta charset="utf-8">\n'
+        '<meta name="viewport" content="width=device-width, initial-scale=1">\n'
+        f"<title>{title}</title>\n<style>{STYLE}</style>\n</head>\n<body>\n<main>\n"
+        + "\n".join(body)
+        + "\n</main>\n</body>\n</html>\n"
+    )

@@ -1,0 +1,271 @@
+"""Reads the output directory of a run (doc/output-files.md says what lies there).
+
+Nothing here stops the report: what is missing or cannot be read becomes a
+sentence in RunOutput.notices, and the value None (or a column of NaN).
+"""
+
+import csv
+import json
+import math
+import re
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import numpy as np
+
+CASE_KEYS = (
+    "superficial_velocity",
+    "pressure_drop",
+    "ergun_pressure_drop",
+    "deviation_from_ergun",
+    "gradient_deviation_from_ergun",
+    "wall_channelling_deviation",
+    "bed_height",
+    "bed_rise",
+    "mean_void_fraction",
+    "bottom_force",
+    "wall_force",
+    "fluid_force",
+    "weight",
+    "fluidized",
+    "steady",
+    "simulated_time",
+    "wall_seconds",
+    "cpu_seconds",
+)
+CASE_FLAGS = ("fluidized", "steady")
+
+MONITOR_COLUMNS = (
+    "time",
+    "phase",
+    "case",
+    "superficial_velocity",
+    "pressure_drop",
+    "bed_height",
+    "bottom_force",
+    "wall_force",
+    "fluid_force",
+    "kinetic_energy_per_particle",
+    "maximum_speed",
+    "mass_imbalance",
+    "momentum_imbalance",
+    "solid_volume_error",
+    "linear_iterations",
+)
+PROFILE_COLUMNS = ("z", "pressure", "void_fraction", "superficial_velocity", "ergun_pressure")
+RADIAL_COLUMNS = ("wall_distance", "void_fraction", "superficial_velocity")
+MIDPLANE_COLUMNS = ("x", "z", "void_fraction", "superficial_velocity", "pressure")
+TEXT_COLUMNS = ("phase",)
+
+
+@dataclass
+class RunOutput:
+    """All that the report needs of one run, in SI units.
+
+    Per-case tables are keyed by the case's number, from 1; a table maps the
+    name of a column to its array. A case maps every name of CASE_KEYS, and
+    "number", to a value or None.
+    """
+
+    directory: Path
+    summary: dict = field(default_factory=dict)
+    cases: list = field(default_factory=list)
+    monitors: dict = None
+    profiles: dict = field(default_factory=dict)
+    radial: dict = field(default_factory=dict)
+    midplane: dict = field(default_factory=dict)
+    notices: list = field(default_factory=list)
+
+    def get(self, *path):
+        """The entry of summary.json at this path of keys; None if absent or null."""
+        value = self.summary
+        for key in path:
+            value = value.get(key) if isinstance(value, dict) else None
+        return None if isinstance(value, float) and not math.isfinite(value) else value
+
+    def number(self, *path):
+        """The same, but None too where the entry is not a number."""
+        return as_number(self.get(*path))
+
+    def case(self, number):
+        """The case with this number, or None."""
+        return next((case for case in self.cases if case["number"] == number), None)
+
+    def empty(self):
+        """Whether nothing at all of a run was found."""
+        return not (
+            self.summary
+            or self.cases
+            or self.monitors
+            or self.profiles
+            or self.radial
+            or self.midplane
+        )
+
+
+def as_number(value):
+    """A finite float, or None. Booleans are no numbers."""
+    if isinstance(value, bool) or value is None:
+        return None
+    try:
+        value = float(value)
+    except (TypeError, ValueError):
+        return None
+    return value if math.isfinite(value) else None
+
+
+def as_flag(value):
+    """True, False, or None if neither was written."""
+    if isinstance(value, str):
+        return {"true": True, "1": True, "false": False, "0": False}.get(value.strip().lower())
+    if isinstance(value, (bool, int)):
+        return bool(value)
+    return None
+
+
+def read_table(path, columns, notices):
+    """Columns of a CSV file by name; None, with a notice, where it has no rows.
+
+    Incomplete rows (a run that was killed while writing) are left out and
+    counted in a notice; a missing column is NaN throughout.
+    """
+    try:
+        with open(path, newline="", encoding="utf-8") as file:
+            rows = [row for row in csv.reader(file) if row and not row[0].startswith("#")]
+    except (OSError, UnicodeDecodeError, csv.Error) as error:
+        notices.append(f"{path.name} cannot be read: {error}.")
+        return None
+    if len(rows) < 2:
+        notices.append(f"{path.name} holds no rows of values.")
+        return None
+
+    header = [name.strip() for name in rows[0]]
+    whole = [row for row in rows[1:] if len(row) == len(header)]
+    if len(whole) < len(rows) - 1:
+        left_out = len(rows) - 1 - len(whole)
+        notices.append(f"{path.name}: {left_out} incomplete row(s) left out.")
+    if not whole:
+        return None
+    table = {
+        name: np.array(cells, dtype=str) if name in TEXT_COLUMNS else to_floats(cells)
+        for name, cells in zip(header, zip(*whole))
+    }
+    absent = [name for name in columns if name not in table]
+    if absent:
+        notices.append(f"{path.name} lacks the column(s) {', '.join(absent)}.")
+    for name in absent:
+        filler = "" if name in TEXT_COLUMNS else math.nan
+        table[name] = np.full(len(whole), filler)
+    return table
+
+
+def to_floats(cells):
+    """Array of floats; NaN for a cell that holds no number."""
+    try:
+        return np.array(cells, dtype=float)
+    except ValueError:
+        numbers = [as_number(cell) for cell in cells]
+        return np.array([math.nan if number is None else number for number in numbers])
+
+
+def read_summary(directory, notices):
+    """summary.json as a dictionary; empty, with a notice, if it cannot be had."""
+    path = directory / "summary.json"
+    if not path.is_file():
+        notices.append("summary.json is missing: is the run still going on, or did it stop early?")
+        return {}
+    try:
+        summary = json.loads(path.read_text(encoding="utf-8"))
+    except (OSError, ValueError) as error:
+        notices.append(f"summary.json cannot be read: {error}.")
+        return {}
+    if not isinstance(summary, dict):
+        notices.append("summary.json holds no object at its top level.")
+        return {}
+    return summary
+
+
+def read_cases(directory, summary, notices):
+    """The flow cases, from summary.json or else from cases.csv."""
+    listed = summary.get("cases")
+    listed = listed if isinstance(listed, list) else []
+    rows = [row for row in listed if isinstance(row, dict)]
+    path = directory / "cases.csv"
+    if not path.is_file():
+        notices.append(
+            "cases.csv is missing" + ("; the cases are those of summary.json." if rows else ".")
+        )
+    elif not rows:
+        rows = rows_of_cases_csv(path, notices)
+    cases = []
+    for number, row in enumerate(rows, start=1):
+        case = {key: as_number(row.get(key)) for key in CASE_KEYS if key not in CASE_FLAGS}
+        case.update({key: as_flag(row.get(key)) for key in CASE_FLAGS})
+        case["number"] = number
+        cases.append(case)
+    return cases
+
+
+def rows_of_cases_csv(path, notices):
+    """The rows of cases.csv as dictionaries of text."""
+    try:
+        with open(path, newline="", encoding="utf-8") as file:
+            return list(csv.DictReader(line for line in file if not line.startswith("#")))
+    except (OSError, UnicodeDecodeError, csv.Error) as error:
+        notices.append(f"cases.csv cannot be read: {error}.")
+        return []
+
+
+def read_numbered(directory, stem, columns, cases, notices, every_case=True):
+    """The tables STEM-NN.csv by case number; names in a notice what is missing."""
+    tables = {}
+    on_disk = set()
+    for path in sorted(directory.glob(f"{stem}-*.csv")):
+        match = re.fullmatch(rf"{stem}-(\d+)\.csv", path.name)
+        if not match:
+            continue
+        on_disk.add(int(match.group(1)))
+        table = read_table(path, columns, notices)
+        if table is not None:
+            tables[int(match.group(1))] = table
+    absent = [f"{stem}-{case['number']:02d}.csv" for case in cases if case["number"] not in on_disk]
+    if not on_disk:
+        notices.append(f"{stem}-NN.csv: there is no such file.")
+    elif absent and every_case:
+        notices.append(f"{', '.join(absent)} {'is' if len(absent) == 1 else 'are'} missing.")
+    return tables
+
+
+def read_run(directory):
+    """Reads everything in @p directory; see RunOutput."""
+    run = RunOutput(Path(directory))
+    notices = run.notices
+    run.summary = read_summary(run.directory, notices)
+    run.cases = read_cases(run.directory, run.summary, notices)
+    monitors = run.directory / "monitors.csv"
+    if monitors.is_file():
+        run.monitors = read_table(monitors, MONITOR_COLUMNS, notices)
+    else:
+        notices.append("monitors.csv is missing.")
+    run.profiles = read_numbered(run.directory, "profiles", PROFILE_COLUMNS, run.cases, notices)
+    run.radial = read_numbered(run.directory, "radial", RADIAL_COLUMNS, run.cases, notices)
+    run.midplane = read_numbered(
+        run.directory, "midplane", MIDPLANE_COLUMNS, run.cases, notices, every_case=False
+    )
+    return run
+
+
+def grid_of(table, name):
+    """Column @p name of a mid-plane table as (x, z, values), values[k, i] at (x[i], z[k]).
+
+    Works in whatever order the rows come, because it looks up each row's place
+    rather than counting; points without a row are NaN. Throws ValueError if the
+    points do not lie on a grid.
+    """
+    x, at_x = np.unique(np.round(table["x"], 9), return_inverse=True)
+    z, at_z = np.unique(np.round(table["z"], 9), return_inverse=True)
+    if len(x) < 2 or len(z) < 2 or len(x) * len(z) > 2 * len(table["x"]):
+        raise ValueError("the points of the mid-plane lie on no regular grid")
+    values = np.full((len(z), len(x)), math.nan)
+    values[at_z, at_x] = table[name]
+    return x, z, values

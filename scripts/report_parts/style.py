@@ -1,0 +1,129 @@
+"""How the figures look, and how they reach the page and the folder of PNG files."""
+
+import base64
+import io
+from dataclasses import dataclass
+
+import matplotlib
+
+matplotlib.use("Agg")
+
+import numpy as np
+from matplotlib import colormaps
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.backends.backend_svg import FigureCanvasSVG
+from matplotlib.figure import Figure
+
+# Okabe and Ito's colours, which stay apart for colour-blind readers.
+BLUE = "#0072B2"
+VERMILLION = "#D55E00"
+GREEN = "#009E73"
+PURPLE = "#A2578A"
+ORANGE = "#E69F00"
+GREY = "#7A7A7A"
+BLACK = "#222222"
+
+MILLI = 1e3
+PERCENT = 1e2
+
+matplotlib.rcParams.update(
+    {
+        "font.family": "sans-serif",
+        "font.sans-serif": ["DejaVu Sans"],
+        "font.size": 9,
+        "text.color": BLACK,
+        "axes.labelcolor": BLACK,
+        "axes.edgecolor": "#9A9A9A",
+        "axes.linewidth": 0.7,
+        "axes.spines.top": False,
+        "axes.spines.right": False,
+        "axes.grid": True,
+        "axes.axisbelow": True,
+        "axes.titlesize": 9,
+        "axes.formatter.useoffset": False,
+        "grid.color": "#E6E6E6",
+        "grid.linewidth": 0.6,
+        "xtick.color": "#555555",
+        "ytick.color": "#555555",
+        "lines.linewidth": 1.5,
+        "lines.markersize": 5.5,
+        "legend.frameon": False,
+        "legend.fontsize": 8.5,
+        "svg.hashsalt": "graupel",
+    }
+)
+
+
+class NothingToShow(Exception):
+    """The data of a figure are not there; the message says which."""
+
+
+@dataclass
+class Rendered:
+    """A finished figure: the name of its PNG file, and its SVG as a data URI."""
+
+    png_name: str
+    data_uri: str
+
+
+def new_figure(width=7.4, height=3.8):
+    """A figure of that size [inch] whose parts arrange themselves."""
+    return Figure(figsize=(width, height), dpi=160, layout="constrained")
+
+
+def render(figure, name, folder):
+    """Writes folder/NAME.png, and returns the figure for the page."""
+    png_name = f"{name}.png"
+    # The canvases are called directly: Figure.savefig draws everything twice.
+    FigureCanvasAgg(figure).print_png(folder / png_name)
+    # The parts have found their places; to look for them again costs as much
+    # as drawing.
+    figure.set_layout_engine("none")
+    buffer = io.BytesIO()
+    no_metadata = {key: None for key in ("Creator", "Date", "Format", "Type")}
+    FigureCanvasSVG(figure).print_svg(buffer, metadata=no_metadata)
+    encoded = base64.b64encode(buffer.getvalue()).decode("ascii")
+    return Rendered(png_name, f"data:image/svg+xml;base64,{encoded}")
+
+
+def colour_of_each(count):
+    """One colour a case, from dark to light in the order of the cases."""
+    return [colormaps["viridis"](value) for value in np.linspace(0.0, 0.85, max(count, 1))]
+
+
+def column(cases, key):
+    """One quantity of all cases, as an array with NaN where it is not known."""
+    return np.array([np.nan if case[key] is None else case[key] for case in cases], dtype=float)
+
+
+def known(values):
+    """Whether an array has at least one number in it."""
+    return values is not None and bool(np.any(np.isfinite(values)))
+
+
+def plot_cases(axes, cases, values, colour, label, marker="o", line="-"):
+    """Draws a quantity against V_s: filled markers for fixed beds, hollow for lifted ones."""
+    velocity = column(cases, "superficial_velocity")
+    axes.plot(velocity, values, line, color=colour, linewidth=1.2, alpha=0.75)
+    lifted = np.array([case["fluidized"] is True for case in cases], dtype=bool)
+    axes.plot(velocity[~lifted], values[~lifted], marker, color=colour, label=label)
+    axes.plot(
+        velocity[lifted],
+        values[lifted],
+        marker,
+        markerfacecolor="white",
+        markeredgecolor=colour,
+        markeredgewidth=1.4,
+        label=None if np.any(~lifted) else label,
+    )
+
+
+def velocity_axis(axes):
+    """Labels the axis of the superficial velocity."""
+    axes.set_xlabel("superficial velocity $V_s$ [m/s]")
+
+
+def need_cases(cases):
+    """Throws NothingToShow unless there are cases with a superficial velocity."""
+    if not known(column(cases, "superficial_velocity")):
+        raise NothingToShow("no flow case with a superficial velocity was found")

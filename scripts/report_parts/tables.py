@@ -1,0 +1,173 @@
+"""The tables of the report, as HTML."""
+
+from html import escape
+
+import numpy as np
+
+from . import reference, words
+
+NO_CASES = '<p class="absent">No flow case was found.</p>'
+
+
+def table(groups, heads, rows):
+    """An HTML table: groups of columns [(title, count)], heads [(name, unit)], rows of text."""
+    lines = ['<div class="wide"><table>', "<thead>"]
+    if groups:
+        cells = "".join(
+            f'<th colspan="{count}" class="group">{title}</th>' for title, count in groups
+        )
+        lines.append(f"<tr>{cells}</tr>")
+    cells = "".join(f"<th>{name}<span>{unit}</span></th>" for name, unit in heads)
+    lines += [f"<tr>{cells}</tr>", "</thead>", "<tbody>"]
+    for row in rows:
+        lines.append("<tr>" + "".join(f"<td>{escape(str(cell))}</td>" for cell in row) + "</tr>")
+    lines += ["</tbody>", "</table></div>"]
+    return "\n".join(lines)
+
+
+def pressure_and_bed(run):
+    """Table of cases: pressure drop and bed."""
+    if not run.cases:
+        return NO_CASES
+    heads = [
+        ("case", ""),
+        ("V<sub>s</sub>", "m/s"),
+        ("computed", "Pa"),
+        ("Ergun", "Pa"),
+        ("whole bed", "%"),
+        ("middle half", "%"),
+        ("wall predicts", "%"),
+        ("height", "mm"),
+        ("rise", "mm"),
+        ("void fraction", "-"),
+        ("lifted", ""),
+        ("steady", ""),
+    ]
+    rows = [
+        [
+            case["number"],
+            words.number(case["superficial_velocity"], ".3f"),
+            words.number(case["pressure_drop"], ".1f"),
+            words.number(case["ergun_pressure_drop"], ".1f"),
+            words.number(case["deviation_from_ergun"], "+.2f", 100.0),
+            words.number(case["gradient_deviation_from_ergun"], "+.2f", 100.0),
+            words.number(case["wall_channelling_deviation"], "+.2f", 100.0),
+            words.number(case["bed_height"], ".2f", 1e3),
+            words.number(case["bed_rise"], ".2f", 1e3),
+            words.number(case["mean_void_fraction"], ".4f"),
+            words.flag(case["fluidized"]),
+            words.flag(case["steady"]),
+        ]
+        for case in run.cases
+    ]
+    groups = [("", 2), ("pressure drop", 2), ("deviation from Ergun", 3), ("bed", 3), ("state", 2)]
+    return table(groups, heads, rows)
+
+
+def forces_and_cost(run):
+    """Table of cases: balance of forces, simulated time and cost."""
+    if not run.cases:
+        return NO_CASES
+    heads = [
+        ("case", ""),
+        ("V<sub>s</sub>", "m/s"),
+        ("bottom", "N"),
+        ("wall", "N"),
+        ("fluid", "N"),
+        ("weight", "N"),
+        ("sum less weight", "% of weight"),
+        ("simulated", "s"),
+        ("wall clock", ""),
+        ("CPU", ""),
+    ]
+    rows = [
+        [
+            case["number"],
+            words.number(case["superficial_velocity"], ".3f"),
+            words.number(case["bottom_force"], ".4f"),
+            words.number(case["wall_force"], ".4f"),
+            words.number(case["fluid_force"], ".4f"),
+            words.number(case["weight"], ".4f"),
+            words.number(imbalance(case), "+.2f", 100.0),
+            words.number(case["simulated_time"], ".3f"),
+            words.duration(case["wall_seconds"]),
+            words.duration(case["cpu_seconds"]),
+        ]
+        for case in run.cases
+    ]
+    return table([("", 2), ("forces along the axis", 5), ("time", 3)], heads, rows)
+
+
+def imbalance(case):
+    """Bottom, wall and fluid less the weight, over the weight; None if one is unknown."""
+    forces = [case[key] for key in ("bottom_force", "wall_force", "fluid_force", "weight")]
+    if any(force is None for force in forces) or forces[3] == 0.0:
+        return None
+    return (sum(forces[:3]) - forces[3]) / forces[3]
+
+
+def papers_values(run, paper):
+    """The paper's Table 1 at this scale, with this run's case at the same velocity beside it."""
+    heads = [
+        ("case", ""),
+        ("V<sub>s</sub>", "m/s"),
+        ("void fraction", "-"),
+        ("Ergun", "Pa"),
+        ("void fraction", "-"),
+        ("Ergun", "Pa"),
+        ("computed", "Pa"),
+    ]
+    rows = []
+    for name, velocity, void_fraction, ergun in zip(
+        paper.names, paper.velocity, paper.void_fraction, paper.ergun
+    ):
+        ours = case_at(run, velocity) or {}
+        rows.append(
+            [
+                name,
+                words.number(velocity, ".3f"),
+                words.number(void_fraction, ".3f"),
+                words.number(ergun, ".1f"),
+                words.number(ours.get("mean_void_fraction"), ".4f"),
+                words.number(ours.get("ergun_pressure_drop"), ".1f"),
+                words.number(ours.get("pressure_drop"), ".1f"),
+            ]
+        )
+    return table([(f"the paper, {paper.scale}X", 4), ("this run, same velocity", 3)], heads, rows)
+
+
+def case_at(run, velocity):
+    """The case whose superficial velocity agrees to the paper's three digits, or None."""
+    for case in run.cases:
+        ours = case["superficial_velocity"]
+        if ours is not None and np.isclose(ours, velocity, rtol=0.0, atol=6e-4):
+            return case
+    return None
+
+
+def deviation_in_parts(run):
+    """Table of what the radial profile explains of each case's deviation, and what is left."""
+    if not run.cases:
+        return NO_CASES
+    heads = [
+        ("case", ""),
+        ("V<sub>s</sub>", "m/s"),
+        ("predicted from the radial profile", "points"),
+        ("left in the middle half", "points"),
+        ("whole bed less middle half", "points"),
+        ("whole bed", "%"),
+    ]
+    rows = []
+    for case in run.cases:
+        parts = reference.parts_of_deviation(case)
+        rows.append(
+            [
+                f"{case['number']}{' (lifted)' if case['fluidized'] else ''}",
+                words.number(case["superficial_velocity"], ".3f"),
+                words.number(parts["predicted"], "+.2f", 100.0),
+                words.number(parts["core"], "+.2f", 100.0),
+                words.number(parts["outside"], "+.2f", 100.0),
+                words.number(parts["full"], "+.2f", 100.0),
+            ]
+        )
+    return table([], heads, rows)

@@ -1,0 +1,340 @@
+#include <graupel/base/parameter_entries.h>
+#include <graupel/base/parameters.h>
+
+#include <deal.II/base/exceptions.h>
+
+#include <filesystem>
+#include <fstream>
+#include <numeric>
+
+namespace graupel
+{
+  namespace
+  {
+    // Something is wrong with the text itself; there is no value to explain.
+    [[noreturn]] void refuse(const std::string &origin, const std::string &reason)
+    {
+      throw InputError("", origin + ": " + reason);
+    }
+
+    std::string in_quotes(const std::string &text)
+    {
+      return '"' + text + '"';
+    }
+
+    std::string trimmed(const std::string &text)
+    {
+      const char *const blanks = " \t\r\n";
+      const auto first         = text.find_first_not_of(blanks);
+      if (first == std::string::npos)
+        return "";
+      return text.substr(first, text.find_last_not_of(blanks) - first + 1);
+    }
+
+    // "A/B/name" as the sections {A, B} and the name.
+    std::pair<std::vector<std::string>, std::string> split_path(const std::string &path)
+    {
+      std::vector<std::string> sections;
+      std::size_t begin = 0;
+      for (std::size_t slash; (slash = path.find('/', begin)) != std::string::npos;
+           begin = slash + 1)
+        sections.push_back(path.substr(begin, slash - begin));
+      return { sections, path.substr(begin) };
+    }
+
+    // Joins continued lines and drops the comment; false at the end of the text.
+    bool next_statement(std::istream &stream,
+                        std::string &statement,
+                        unsigned int &first_line,
+                        unsigned int &lines_read)
+    {
+      statement.clear();
+      first_line = lines_read + 1;
+      for (std::string line; std::getline(stream, line);)
+        {
+          ++lines_read;
+          if (!line.empty() && line.back() == '\r')
+            line.pop_back();
+          const bool continued = !line.empty() && line.back() == '\\';
+          if (continued)
+            line.pop_back();
+          statement +=
+              lines_read == first_line
+                  ? line
+                  : line.substr(std::min(line.find_first_not_of(" \t"), line.size()));
+          if (!continued)
+            {
+              statement = trimmed(statement.substr(0, statement.find('#')));
+              return true;
+            }
+        }
+      statement = trimmed(statement.substr(0, statement.find('#')));
+      return lines_read >= first_line;
+    }
+
+    /**
+     * Walks through the statements of a file and of what it includes, and
+     * hands every assignment on: path, value, and "FILE:LINE".
+     */
+    class Reader
+    {
+    public:
+      using Assign = std::function<void(
+          const std::string &, const std::string &, const std::string &)>;
+
+      Reader(const std::vector<std::string> &known, const Assign &assign)
+          : known(known)
+          , assign(assign)
+      {
+      }
+
+      // Empty @p asked_by: the file that the user named.
+      void read_file(const std::string &file_name, const std::string &asked_by)
+      {
+        const std::string where = asked_by.empty() ? file_name : asked_by;
+        const std::string what  = asked_by.empty()
+                                      ? "this parameter file"
+                                      : "the included file " + in_quotes(file_name);
+
+        std::ifstream stream(file_name);
+        if (!stream || std::filesystem::is_directory(file_name))
+          refuse(where, "cannot read " + what + "; is the path right?");
+        if (std::find(open_files.begin(), open_files.end(), file_name) !=
+            open_files.end())
+          refuse(where,
+                 what + " is still being read: files include each other in a circle");
+        open_files.push_back(file_name);
+        read_stream(stream, file_name);
+        open_files.pop_back();
+      }
+
+      void read_stream(std::istream &stream, const std::string &name)
+      {
+        const std::size_t sections_outside = sections.size();
+        std::string statement;
+        unsigned int line = 0, lines_read = 0;
+        while (next_statement(stream, statement, line, lines_read))
+          if (!statement.empty())
+            obey(statement, name, name + ':' + std::to_string(line), sections_outside);
+
+        if (sections.size() > sections_outside)
+          refuse(sections.back().origin,
+                 "the section " + in_quotes(sections.back().name) +
+                     " has no \"end\" before the end of the file");
+      }
+
+    private:
+      struct OpenSection
+      {
+        std::string name;
+        std::string origin;
+      };
+
+      std::string path_of(const std::string &name) const
+      {
+        std::string path;
+        for (const OpenSection &section : sections)
+          path += section.name + "/";
+        return path + name;
+      }
+
+      void obey(const std::string &statement,
+                const std::string &file_name,
+                const std::string &origin,
+                const std::size_t sections_outside)
+      {
+        const auto blank    = statement.find_first_of(" \t");
+        std::string keyword = statement.substr(0, blank);
+        std::transform(keyword.begin(),
+                       keyword.end(),
+                       keyword.begin(),
+                       [](unsigned char c) { return std::tolower(c); });
+        const std::string rest =
+            blank == std::string::npos ? "" : trimmed(statement.substr(blank));
+
+        if (keyword == "subsection" && !rest.empty())
+          sections.push_back({ rest, origin });
+        else if (keyword == "end" && rest.empty())
+          close_section(origin, sections_outside);
+        else if (keyword == "set" && !rest.empty())
+          {
+            const auto equals = rest.find('=');
+            if (equals == std::string::npos)
+              refuse(origin,
+                     in_quotes(statement) +
+                         " gives no value; write \"set name = value\"");
+            assign(path_of(trimmed(rest.substr(0, equals))),
+                   trimmed(rest.substr(equals + 1)),
+                   origin);
+          }
+        else if (keyword == "include" && !rest.empty())
+          read_file((std::filesystem::path(file_name).parent_path() / rest).string(),
+                    origin);
+        else
+          refuse(
+              origin,
+              in_quotes(statement) +
+                  " is no statement; expected \"set name = value\", \"subsection NAME\", "
+                  "\"end\", \"include FILE\" or a comment after #");
+      }
+
+      // A section that holds nothing would otherwise escape the check of names.
+      void close_section(const std::string &origin, const std::size_t sections_outside)
+      {
+        if (sections.size() <= sections_outside)
+          refuse(origin, "this \"end\" closes no section of this file");
+
+        const std::string path = path_of("");
+        std::vector<std::string> known_sections;
+        for (const std::string &name : known)
+          for (auto slash = name.find('/'); slash != std::string::npos;
+               slash      = name.find('/', slash + 1))
+            known_sections.push_back(name.substr(0, slash));
+        const std::string name = path.substr(0, path.size() - 1);
+        if (std::find(known_sections.begin(), known_sections.end(), name) ==
+            known_sections.end())
+          refuse(sections.back().origin,
+                 "there is no section " + in_quotes(name) + "; did you mean " +
+                     in_quotes(nearest_name(name, known_sections)) + "?");
+        sections.pop_back();
+      }
+
+      const std::vector<std::string> &known;
+      const Assign assign;
+      std::vector<OpenSection> sections;
+      std::vector<std::string> open_files;
+    };
+  } // namespace
+
+  InputError::InputError(const std::string &parameter, const std::string &reason)
+      : std::runtime_error(parameter.empty() ? reason : parameter + ": " + reason)
+      , parameter(parameter)
+  {
+  }
+
+  void
+  require(const bool condition, const std::string &parameter, const std::string &reason)
+  {
+    if (!condition)
+      throw InputError(parameter, reason);
+  }
+
+  ParameterFile::ParameterFile(dealii::ParameterHandler &handler)
+      : handler(handler)
+  {
+    for (const ParameterEntry &entry : parameter_entries(handler))
+      known.push_back(entry.path);
+  }
+
+  void ParameterFile::read(const std::string &file_name)
+  {
+    Reader(known, [this](const auto &path, const auto &value, const auto &origin) {
+      assign(path, value, origin);
+    }).read_file(file_name, "");
+  }
+
+  void ParameterFile::read(std::istream &stream, const std::string &name)
+  {
+    Reader(known, [this](const auto &path, const auto &value, const auto &origin) {
+      assign(path, value, origin);
+    }).read_stream(stream, name);
+  }
+
+  void ParameterFile::set(const std::string &assignment)
+  {
+    const auto equals = assignment.find('=');
+    if (equals == std::string::npos)
+      refuse("--set", "expected \"Section/name=value\", not " + in_quotes(assignment));
+    assign(trimmed(assignment.substr(0, equals)),
+           trimmed(assignment.substr(equals + 1)),
+           "--set");
+  }
+
+  std::string ParameterFile::explain(const InputError &error) const
+  {
+    if (!std::binary_search(known.begin(), known.end(), error.parameter))
+      return error.what();
+
+    const auto [sections, name] = split_path(error.parameter);
+    const std::string value     = error.parameter + " = " + handler.get(sections, name);
+    const std::string reason =
+        std::string(error.what()).substr(error.parameter.size() + 2);
+    const auto origin = origins.find(error.parameter);
+    if (origin == origins.end())
+      return value + " (the default): " + reason;
+    return origin->second + ": " + value + ": " + reason;
+  }
+
+  const std::vector<std::string> &ParameterFile::known_parameters() const
+  {
+    return known;
+  }
+
+  void ParameterFile::assign(const std::string &path,
+                             const std::string &value,
+                             const std::string &origin)
+  {
+    if (!std::binary_search(known.begin(), known.end(), path))
+      refuse(origin,
+             "there is no parameter " + in_quotes(path) + "; did you mean " +
+                 in_quotes(nearest_name(path, known)) + "?");
+
+    const auto [sections, name] = split_path(path);
+    const auto entries          = parameter_entries(handler);
+    const auto pattern =
+        std::find_if(entries.begin(), entries.end(), [&path = path](const auto &entry) {
+          return entry.path == path;
+        })->pattern;
+
+    // deal.II would take a negative number for an unsigned one, modulo 2^32.
+    bool fits = !(pattern == "[Integer]" && value.find('-') != std::string::npos);
+    for (const std::string &section : sections)
+      handler.enter_subsection(section);
+    try
+      {
+        if (fits)
+          handler.set(name, value);
+      }
+    catch (const std::exception &)
+      {
+        fits = false;
+      }
+    for (unsigned int i = 0; i < sections.size(); ++i)
+      handler.leave_subsection();
+
+    if (!fits)
+      refuse(origin, path + " = " + value + ": expected " + expected_by(pattern));
+    origins[path] = origin;
+  }
+
+  std::string nearest_name(const std::string &name, const std::vector<std::string> &known)
+  {
+    // Levenshtein's distance, a row of the table at a time.
+    const auto distance = [&name](const std::string &other) {
+      std::vector<std::size_t> row(other.size() + 1);
+      std::iota(row.begin(), row.end(), 0);
+      for (std::size_t i = 1; i <= name.size(); ++i)
+        {
+          std::size_t diagonal = row[0];
+          row[0]               = i;
+          for (std::size_t j = 1; j <= other.size(); ++j)
+            {
+              const std::size_t replaced = diagonal + (name[i - 1] != other[j - 1]);
+              diagonal                   = row[j];
+              row[j] = std::min({ replaced, row[j] + 1, row[j - 1] + 1 });
+            }
+        }
+      return row.back();
+    };
+
+    std::string nearest;
+    std::size_t least = std::numeric_limits<std::size_t>::max();
+    for (const std::string &candidate : known)
+      if (const std::size_t d = distance(candidate); d < least)
+        {
+          least   = d;
+          nearest = candidate;
+        }
+    return nearest;
+  }
+} // namespace graupel

@@ -1,0 +1,217 @@
+#include <graupel/base/parameters.h>
+#include <graupel/coupling/exchange.h>
+
+#include <sstream>
+
+namespace graupel
+{
+  namespace
+  {
+    // One component of a vector quantity of all own particles.
+    template <typename Function>
+    std::vector<double>
+    by_row(const unsigned int n_rows, const Function &function)
+    {
+      std::vector<double> values(n_rows);
+      for (unsigned int row = 0; row < n_rows; ++row)
+        values[row] = function(row);
+      return values;
+    }
+
+    [[noreturn]] void
+    fail_at(const dealii::Point<3> &position, const std::string &reason)
+    {
+      std::ostringstream message;
+      message << "At the particle at (" << position << ") m: " << reason;
+      throw std::runtime_error(message.str());
+    }
+  } // namespace
+
+  void
+  CouplingParameters::declare(dealii::ParameterHandler &prm)
+  {
+    prm.enter_subsection("Coupling");
+    prm.add_parameter("filter length",
+                      filter_length,
+                      "Length of the filter that spreads a particle's volume and drag over the "
+                      "mesh, and gathers fluid fields at the particle; auto is the diameter of "
+                      "a simulated particle, 0 a plain deposit on the nearest nodes [m].");
+    prm.leave_subsection();
+  }
+
+  double
+  CouplingParameters::length(const double simulated_diameter) const
+  {
+    if (filter_length == "auto")
+      return simulated_diameter;
+    std::size_t  end   = 0;
+    const double value = std::stod(filter_length, &end);
+    if (end != filter_length.size())
+      throw std::invalid_argument(filter_length);
+    return value;
+  }
+
+  void
+  CouplingParameters::check() const
+  {
+    const std::string name = "Coupling/filter length";
+    double            value = -1.;
+    try
+      {
+        value = length(1.);
+      }
+    catch (const std::exception &)
+      {
+        require(false, name, "is neither a length in metres nor the word auto");
+      }
+    require(value >= 0. && std::isfinite(value),
+            name,
+            "a filter cannot have a negative length; 0 switches it off, auto takes the "
+            "diameter of a simulated particle");
+  }
+
+  Exchange::Exchange(const double      filter_length,
+                     const Drag       &drag,
+                     const NodalSpace &nodes,
+                     CostSheet        &costs)
+    : drag(drag)
+    , nodes(nodes)
+    , costs(costs)
+    , filter(nodes, filter_length)
+    , transfer(nodes)
+    , result(nodes)
+  {
+    nodes.initialize(solid_fraction);
+    nodes.initialize(scratch);
+    for (NodalVectorField *field : {&interstitial, &smooth_velocity, &smooth_gradient})
+      for (NodalVector &component : *field)
+        {
+          nodes.initialize(component);
+          component.update_ghost_values();
+        }
+  }
+
+  void
+  Exchange::update(const ParticleStore &store, const ParticleArrays &particles)
+  {
+    {
+      const CostSheet::Scope timing(costs, CostSheet::void_fraction);
+      transfer.update(store);
+      deposit_void_fraction(particles);
+    }
+    const CostSheet::Scope timing(costs, CostSheet::exchange);
+    deposit_drag(particles);
+  }
+
+  void
+  Exchange::deposit_void_fraction(const ParticleArrays &particles)
+  {
+    volume = by_row(particles.n_owned,
+                    [&](const unsigned int row) { return sphere_volume(particles.radius[row]); });
+    transfer.deposit(scratch, volume);
+    filter.spread(solid_fraction, scratch);
+
+    double on_mesh = 0., in_particles = 0.;
+    for (unsigned int k = 0; k < solid_fraction.locally_owned_size(); ++k)
+      {
+        result.void_fraction.local_element(k) = 1. - solid_fraction.local_element(k);
+        on_mesh +=
+          nodes.measure().local_element(k) * (1. - result.void_fraction.local_element(k));
+      }
+    result.void_fraction.update_ghost_values();
+    for (const double v : volume)
+      in_particles += v;
+    on_mesh      = dealii::Utilities::MPI::sum(on_mesh, nodes.mesh.communicator());
+    in_particles = dealii::Utilities::MPI::sum(in_particles, nodes.mesh.communicator());
+    volume_error = in_particles > 0. ? std::abs(on_mesh / in_particles - 1.) : 0.;
+  }
+
+  void
+  Exchange::deposit_drag(const ParticleArrays &particles)
+  {
+    const unsigned int                 n = particles.n_owned;
+    std::vector<double>                alpha;
+    std::array<std::vector<double>, 3> velocity;
+    transfer.sample(alpha, result.void_fraction);
+    for (unsigned int i = 0; i < 3; ++i)
+      transfer.sample(velocity[i], smooth_velocity[i]);
+
+    beta.resize(n);
+    for (unsigned int row = 0; row < n; ++row)
+      {
+        dealii::Tensor<1, 3> slip;
+        for (unsigned int i = 0; i < 3; ++i)
+          slip[i] = velocity[i][row] - particles.velocity[row][i];
+        try
+          {
+            beta[row] = drag.beta(alpha[row], slip.norm());
+          }
+        catch (const std::exception &error)
+          {
+            fail_at(particles.position[row], error.what());
+          }
+      }
+    transfer.deposit(scratch, beta);
+    filter.spread(result.drag, scratch);
+    for (unsigned int i = 0; i < 3; ++i)
+      {
+        transfer.deposit(scratch, by_row(n, [&](const unsigned int row) {
+                           return beta[row] * particles.velocity[row][i];
+                         }));
+        filter.spread(result.drag_source[i], scratch);
+      }
+  }
+
+  std::vector<dealii::Tensor<1, 3>>
+  Exchange::forces(const ParticleArrays &particles,
+                   const FlowSolver     &flow,
+                   const double          density,
+                   const double          gravity)
+  {
+    const CostSheet::Scope timing(costs, CostSheet::exchange);
+    const NodalVectorField pressure_gradient = flow.pressure_gradient();
+
+    std::vector<dealii::Tensor<1, 3>> force(particles.n_owned);
+    std::vector<double>               velocity, gradient;
+    fluid_force = 0.;
+    for (unsigned int i = 0; i < 3; ++i)
+      {
+        for (unsigned int k = 0; k < interstitial[i].locally_owned_size(); ++k)
+          interstitial[i].local_element(k) =
+            flow.flux()[i].local_element(k) / result.void_fraction.local_element(k);
+        filter.smooth(smooth_velocity[i], interstitial[i]);
+        filter.smooth(smooth_gradient[i], pressure_gradient[i]);
+        transfer.sample(velocity, smooth_velocity[i]);
+        transfer.sample(gradient, smooth_gradient[i]);
+        for (unsigned int row = 0; row < particles.n_owned; ++row)
+          {
+            force[row][i] = beta[row] * (velocity[row] - particles.velocity[row][i]) -
+                            volume[row] * gradient[row];
+            fluid_force[i] += force[row][i];
+          }
+      }
+    fluid_force = dealii::Utilities::MPI::sum(fluid_force, nodes.mesh.communicator());
+    for (unsigned int row = 0; row < particles.n_owned; ++row)
+      force[row][2] += volume[row] * density * gravity;
+    keep_ledger(flow, pressure_gradient);
+    return force;
+  }
+
+  void
+  Exchange::keep_ledger(const FlowSolver &flow, const NodalVectorField &pressure_gradient)
+  {
+    dealii::Tensor<1, 3> lost;
+    for (unsigned int i = 0; i < 3; ++i)
+      for (unsigned int k = 0; k < scratch.locally_owned_size(); ++k)
+        {
+          const double alpha = result.void_fraction.local_element(k);
+          const double drag  = result.drag.local_element(k) * flow.flux()[i].local_element(k) / alpha -
+                              result.drag_source[i].local_element(k);
+          lost[i] += nodes.measure().local_element(k) *
+                     (drag - (1. - alpha) * pressure_gradient[i].local_element(k));
+        }
+    lost              = dealii::Utilities::MPI::sum(lost, nodes.mesh.communicator());
+    const double size = std::max(lost.norm(), fluid_force.norm());
+    momentum_error    = size > 0. ? (lost - fluid_force).norm() / size : 0.;
+  }
+} // namespace graupel

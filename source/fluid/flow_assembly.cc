@@ -1,0 +1,164 @@
+#include <graupel/fluid/flow_solver.h>
+
+namespace graupel
+{
+  CellState
+  FlowSolver::gather(const unsigned int cell, const Medium &medium) const
+  {
+    CellState state;
+    state.size = space.cell_sizes[cell];
+    for (unsigned int a = 0; a < nodes_per_cell; ++a)
+      {
+        const unsigned int node     = space.cell_nodes[cell][a];
+        const double       alpha    = medium.void_fraction.local_element(node);
+        state.void_fraction[a]      = alpha;
+        state.resistance[a]         = medium.drag.local_element(node) / alpha;
+        state.void_fraction_rate[a] = alpha_rate.local_element(node);
+        for (unsigned int i = 0; i < 3; ++i)
+          {
+            state.flux[a][i]        = flux_now[i].local_element(node);
+            state.history[a][i]     = history[i].local_element(node);
+            state.drag_source[a][i] = medium.drag_source[i].local_element(node);
+          }
+      }
+    return state;
+  }
+
+  void
+  FlowSolver::assemble(const Medium &medium)
+  {
+    matrix = 0.;
+    rhs    = 0.;
+    const FlowCoefficients     coefficients{density, viscosity, scheme.now, parameters.grad_div};
+    const unsigned int         n = unknowns_per_node * nodes_per_cell;
+    dealii::FullMatrix<double> cell_matrix(n, n);
+    dealii::Vector<double>     cell_rhs(n);
+    const auto                 distribute = [&](const unsigned int cell) {
+      const auto &unknowns = space.cell_unknowns[cell];
+      constraints.distribute_local_to_global(cell_matrix, unknowns, matrix);
+      constraints.distribute_local_to_global(cell_rhs, unknowns, rhs, cell_matrix);
+      cell_matrix = 0.;
+      cell_rhs    = 0.;
+    };
+
+    for (unsigned int cell = 0; cell < space.n_cells(); ++cell)
+      {
+        const CellState state = gather(cell, medium);
+        for (unsigned int q = 0; q < space.points_per_cell; ++q)
+          add_flow_point(coefficients,
+                         state,
+                         space.shapes[cell * space.points_per_cell + q],
+                         cell_matrix,
+                         cell_rhs);
+        distribute(cell);
+      }
+
+    for (const auto &point : space.bottom)
+      {
+        for (unsigned int a = 0; a < nodes_per_cell; ++a)
+          cell_rhs[unknowns_per_node * a + 3] +=
+            point.weight * point.value[a] * superficial_velocity;
+        distribute(point.cell);
+      }
+
+    for (const auto &point : space.top)
+      {
+        const CellState state    = gather(point.cell, medium);
+        double          backflow = 0.; // momentum that must not enter with reversed flow
+        for (unsigned int a = 0; a < nodes_per_cell; ++a)
+          backflow += point.value[a] * state.flux[a][2];
+        backflow = density * std::max(0., -backflow);
+        for (unsigned int a = 0; a < nodes_per_cell; ++a)
+          for (unsigned int b = 0; b < nodes_per_cell; ++b)
+            {
+              const double       mass = point.weight * point.value[a] * point.value[b];
+              const unsigned int row = unknowns_per_node * a, column = unknowns_per_node * b;
+              cell_matrix(row + 2, column + 3) -= state.void_fraction[a] * mass;
+              cell_matrix(row + 3, column + 2) += mass;
+              for (unsigned int i = 0; i < 3; ++i)
+                cell_matrix(row + i, column + i) += backflow * mass / state.void_fraction[b];
+            }
+        distribute(point.cell);
+      }
+
+    add_nodal_drag(medium);
+    matrix.compress(dealii::VectorOperation::add);
+    rhs.compress(dealii::VectorOperation::add);
+    assemble_schur(medium);
+  }
+
+  void
+  FlowSolver::add_nodal_drag(const Medium &medium)
+  {
+    // Node by node and not cell by cell: the coupling's adjoint pair needs the
+    // drag on the fluid to be exactly m_k (B_k u_k - C_k).
+    dealii::FullMatrix<double>                   node_matrix(3, 3);
+    dealii::Vector<double>                       node_rhs(3);
+    std::vector<dealii::types::global_dof_index> unknowns(3);
+    for (unsigned int k = 0; k < medium.drag.locally_owned_size(); ++k)
+      {
+        const double measure = nodes.measure().local_element(k);
+        for (unsigned int i = 0; i < 3; ++i)
+          {
+            unknowns[i]       = 3 * nodes.measure().get_partitioner()->local_to_global(k) + i;
+            node_matrix(i, i) = measure * medium.drag.local_element(k) /
+                                medium.void_fraction.local_element(k);
+            node_rhs[i] = measure * medium.drag_source[i].local_element(k);
+          }
+        constraints.distribute_local_to_global(node_matrix, unknowns, matrix);
+        constraints.distribute_local_to_global(node_rhs, unknowns, rhs, node_matrix);
+      }
+  }
+
+  void
+  FlowSolver::assemble_schur(const Medium &medium)
+  {
+    schur = 0.;
+    const FlowCoefficients     coefficients{density, viscosity, scheme.now, parameters.grad_div};
+    dealii::FullMatrix<double> local(nodes_per_cell, nodes_per_cell);
+    std::vector<dealii::types::global_dof_index> indices(nodes_per_cell);
+    std::vector<double>                          conductivity(space.n_cells());
+
+    const auto distribute = [&](const unsigned int cell) {
+      for (unsigned int a = 0; a < nodes_per_cell; ++a)
+        indices[a] = nodes.measure().get_partitioner()->local_to_global(
+          space.cell_nodes[cell][a]);
+      nodes.hanging_nodes.distribute_local_to_global(local, indices, schur);
+      local = 0.;
+    };
+
+    for (unsigned int cell = 0; cell < space.n_cells(); ++cell)
+      {
+        const CellState state = gather(cell, medium);
+        double          alpha = 0., resistance = 0., speed = 0.;
+        for (unsigned int a = 0; a < nodes_per_cell; ++a)
+          {
+            alpha += state.void_fraction[a] / nodes_per_cell;
+            resistance += state.resistance[a] / nodes_per_cell;
+            speed += state.flux[a].norm() / state.void_fraction[a] / nodes_per_cell;
+          }
+        const double tau = stabilization_time(coefficients, resistance, speed, state.size);
+        const double reaction =
+          density * (scheme.now + 2. * speed / state.size) + resistance;
+        conductivity[cell] = alpha * (1. / reaction + tau);
+        for (unsigned int q = 0; q < space.points_per_cell; ++q)
+          {
+            const ShapePoint &point = space.shapes[cell * space.points_per_cell + q];
+            for (unsigned int a = 0; a < nodes_per_cell; ++a)
+              for (unsigned int b = 0; b < nodes_per_cell; ++b)
+                local(a, b) +=
+                  point.weight * conductivity[cell] * (point.gradient[a] * point.gradient[b]);
+          }
+        distribute(cell);
+      }
+    for (const auto &point : space.top)
+      {
+        const double weight = conductivity[point.cell] / space.cell_sizes[point.cell];
+        for (unsigned int a = 0; a < nodes_per_cell; ++a)
+          for (unsigned int b = 0; b < nodes_per_cell; ++b)
+            local(a, b) += weight * point.weight * point.value[a] * point.value[b];
+        distribute(point.cell);
+      }
+    schur.compress(dealii::VectorOperation::add);
+  }
+} // namespace graupel

@@ -1,0 +1,121 @@
+#include <graupel/fluid/flow_kernel.h>
+
+namespace graupel
+{
+  namespace
+  {
+    using dealii::Tensor;
+
+    // The fields of the cell at the point.
+    struct PointState
+    {
+      double       void_fraction      = 0.;
+      double       resistance         = 0.;
+      double       void_fraction_rate = 0.;
+      double       flux_divergence    = 0.;
+      Tensor<1, 3> flux;
+      Tensor<1, 3> history;
+      // The known terms of the momentum residual [N/m^3].
+      Tensor<1, 3> source;
+    };
+
+    PointState
+    interpolate(const FlowCoefficients &coefficients,
+                const CellState        &state,
+                const ShapePoint       &point)
+    {
+      PointState result;
+      for (unsigned int a = 0; a < nodes_per_cell; ++a)
+        {
+          const double psi = point.value[a];
+          result.void_fraction += psi * state.void_fraction[a];
+          result.resistance += psi * state.resistance[a];
+          result.void_fraction_rate += psi * state.void_fraction_rate[a];
+          result.flux_divergence += point.gradient[a] * state.flux[a];
+          result.flux += psi * state.flux[a];
+          result.history += psi * state.history[a];
+          result.source += psi * state.drag_source[a];
+        }
+      result.source -= coefficients.density * result.history;
+      return result;
+    }
+  } // namespace
+
+  double
+  stabilization_time(const FlowCoefficients &coefficients,
+                     const double            resistance,
+                     const double            speed,
+                     const double            size)
+  {
+    const double reaction   = coefficients.density * coefficients.rate + resistance;
+    const double convection = 2. * coefficients.density * speed / size;
+    const double diffusion  = 12. * coefficients.viscosity / (size * size);
+    return 1. / std::sqrt(reaction * reaction + convection * convection + diffusion * diffusion);
+  }
+
+  void
+  add_flow_point(const FlowCoefficients     &coefficients,
+                 const CellState            &state,
+                 const ShapePoint           &point,
+                 dealii::FullMatrix<double> &matrix,
+                 dealii::Vector<double>     &rhs)
+  {
+    const double     rho   = coefficients.density;
+    const PointState here  = interpolate(coefficients, state, point);
+    const double     alpha = here.void_fraction;
+    const double     speed = here.flux.norm() / alpha;
+    const double tau   = stabilization_time(coefficients, here.resistance, speed, state.size);
+    const double gamma =
+      coefficients.grad_div * (rho * speed * state.size + coefficients.viscosity) / alpha;
+    const double mu_alpha = coefficients.viscosity * alpha;
+
+    std::array<double, nodes_per_cell> galerkin; // acceleration and convection of node b
+    std::array<double, nodes_per_cell> strong;   // the same with the drag: its residual
+    std::array<double, nodes_per_cell> upwind;   // test function of SUPG
+    for (unsigned int b = 0; b < nodes_per_cell; ++b)
+      {
+        const double along = here.flux * point.gradient[b];
+        const double psi   = point.value[b];
+        galerkin[b]        = rho * (coefficients.rate * psi +
+                             (along + here.flux_divergence * psi) / state.void_fraction[b]);
+        strong[b]          = galerkin[b] + state.resistance[b] * psi;
+        upwind[b]          = tau * rho * along / alpha;
+      }
+
+    for (unsigned int a = 0; a < nodes_per_cell; ++a)
+      {
+        const Tensor<1, 3> grad_a = point.gradient[a];
+        const double       psi_a  = point.value[a];
+        const unsigned int row    = unknowns_per_node * a;
+        for (unsigned int b = 0; b < nodes_per_cell; ++b)
+          {
+            const Tensor<1, 3> grad_b    = point.gradient[b];
+            const unsigned int column    = unknowns_per_node * b;
+            const double       friction  = mu_alpha / state.void_fraction[b];
+            const double       diagonal  = psi_a * galerkin[b] + upwind[a] * strong[b] +
+                                    friction * (grad_a * grad_b);
+            const double pressure_weight = state.void_fraction[a] * psi_a + upwind[a] * alpha;
+            for (unsigned int i = 0; i < 3; ++i)
+              {
+                matrix(row + i, column + i) += point.weight * diagonal;
+                for (unsigned int j = 0; j < 3; ++j)
+                  matrix(row + i, column + j) +=
+                    point.weight * (friction * grad_a[j] * grad_b[i] +
+                                    (gamma - 2. / 3. * friction) * grad_a[i] * grad_b[j]);
+                matrix(row + i, column + 3) += point.weight * pressure_weight * grad_b[i];
+                matrix(row + 3, column + i) +=
+                  point.weight * grad_a[i] * (tau * strong[b] - point.value[b]);
+              }
+            matrix(row + 3, column + 3) += point.weight * tau * alpha * (grad_a * grad_b);
+          }
+
+        for (unsigned int i = 0; i < 3; ++i)
+          rhs[row + i] +=
+            point.weight * (-psi_a * rho * here.history[i] +
+                            upwind[a] * here.source[i] -
+                            gamma * grad_a[i] * here.void_fraction_rate);
+        rhs[row + 3] += point.weight * (tau * (grad_a * here.source) -
+                                        psi_a * state.void_fraction_rate[a]);
+      }
+  }
+} // namespace graupel

@@ -1,0 +1,157 @@
+#include <graupel/fluid/flow_space.h>
+
+#include <deal.II/base/quadrature_lib.h>
+#include <deal.II/dofs/dof_renumbering.h>
+#include <deal.II/dofs/dof_tools.h>
+#include <deal.II/fe/fe_values.h>
+
+namespace graupel
+{
+  FlowSpace::FlowSpace(const NodalSpace &nodes)
+    : nodes(nodes)
+    , fe(nodes.fe, unknowns_per_node)
+    , dof_handler(nodes.dof_handler.get_triangulation())
+    , points_per_cell(nodes.quadrature.size())
+  {
+    number_unknowns();
+    store_cells();
+    store_faces();
+    assemble_gradient();
+  }
+
+  void
+  FlowSpace::number_unknowns()
+  {
+    dof_handler.distribute_dofs(fe);
+    const std::vector<unsigned int> blocks{0, 0, 0, 1};
+    dealii::DoFRenumbering::component_wise(dof_handler, blocks);
+    const auto sizes = dealii::DoFTools::count_dofs_per_fe_block(dof_handler, blocks);
+    dealii::IndexSet all;
+    dealii::DoFTools::extract_locally_relevant_dofs(dof_handler, all);
+    const auto end = sizes[0] + sizes[1];
+    owned          = {dof_handler.locally_owned_dofs().get_view(0, sizes[0]),
+                      dof_handler.locally_owned_dofs().get_view(sizes[0], end)};
+    relevant       = {all.get_view(0, sizes[0]), all.get_view(sizes[0], end)};
+    AssertThrow(owned[1] == nodes.owned && owned[0].n_elements() == 3 * owned[1].n_elements(),
+                dealii::ExcMessage("The flow's nodes are not numbered as the scalar nodes are."));
+  }
+
+  void
+  FlowSpace::store_cells()
+  {
+    dealii::FEValues<3> values(nodes.mesh.mapping(),
+                               nodes.fe,
+                               nodes.quadrature,
+                               dealii::update_values | dealii::update_gradients |
+                                 dealii::update_JxW_values);
+    const auto &partitioner = *nodes.measure().get_partitioner();
+    std::vector<dealii::types::global_dof_index> scalar(nodes_per_cell);
+    std::vector<dealii::types::global_dof_index> unknowns(fe.n_dofs_per_cell());
+    for (const auto &cell : nodes.dof_handler.active_cell_iterators())
+      if (cell->is_locally_owned())
+        {
+          values.reinit(cell);
+          cell->get_dof_indices(scalar);
+          const typename dealii::DoFHandler<3>::active_cell_iterator flow_cell(
+            &dof_handler.get_triangulation(), cell->level(), cell->index(), &dof_handler);
+          flow_cell->get_dof_indices(unknowns);
+          LocalNodes local;
+          for (unsigned int a = 0; a < nodes_per_cell; ++a)
+            {
+              local[a] = partitioner.global_to_local(scalar[a]);
+              for (unsigned int c = 0; c < 3; ++c)
+                AssertThrow(unknowns[unknowns_per_node * a + c] == 3 * scalar[a] + c,
+                            dealii::ExcMessage("Unexpected numbering of the flux."));
+            }
+          cell_nodes.push_back(local);
+          cell_unknowns.push_back(unknowns);
+
+          double volume = 0.;
+          for (const unsigned int q : values.quadrature_point_indices())
+            {
+              ShapePoint point;
+              point.weight = values.JxW(q);
+              volume += point.weight;
+              for (unsigned int a = 0; a < nodes_per_cell; ++a)
+                {
+                  point.value[a]    = values.shape_value(a, q);
+                  point.gradient[a] = values.shape_grad(a, q);
+                }
+              shapes.push_back(point);
+            }
+          cell_sizes.push_back(std::cbrt(volume));
+        }
+  }
+
+  void
+  FlowSpace::store_faces()
+  {
+    dealii::FEFaceValues<3> values(nodes.mesh.mapping(),
+                                   nodes.fe,
+                                   dealii::QGauss<2>(2),
+                                   dealii::update_values | dealii::update_JxW_values);
+    unsigned int            number = 0;
+    for (const auto &cell : nodes.dof_handler.active_cell_iterators())
+      if (cell->is_locally_owned())
+        {
+          for (const unsigned int f : cell->face_indices())
+            if (cell->face(f)->at_boundary() &&
+                cell->face(f)->boundary_id() != CylinderMesh::wall)
+              {
+                values.reinit(cell, f);
+                for (const unsigned int q : values.quadrature_point_indices())
+                  {
+                    FacePoint point;
+                    point.cell   = number;
+                    point.weight = values.JxW(q);
+                    for (unsigned int a = 0; a < nodes_per_cell; ++a)
+                      point.value[a] = values.shape_value(a, q);
+                    (cell->face(f)->boundary_id() == CylinderMesh::top ? top : bottom)
+                      .push_back(point);
+                  }
+              }
+          ++number;
+        }
+  }
+
+  void
+  FlowSpace::assemble_gradient()
+  {
+    nodal_pattern.reinit(nodes.owned, nodes.owned, nodes.relevant, nodes.mesh.communicator());
+    dealii::DoFTools::make_sparsity_pattern(nodes.dof_handler,
+                                            nodal_pattern,
+                                            nodes.hanging_nodes,
+                                            false);
+    nodal_pattern.compress();
+
+    for (unsigned int i = 0; i < 3; ++i)
+      {
+        gradient[i].reinit(nodal_pattern);
+        std::vector<dealii::FullMatrix<double>> local(
+          n_cells(), dealii::FullMatrix<double>(nodes_per_cell, nodes_per_cell));
+        for (unsigned int cell = 0; cell < n_cells(); ++cell)
+          for (unsigned int q = 0; q < points_per_cell; ++q)
+            {
+              const ShapePoint &point = shapes[cell * points_per_cell + q];
+              for (unsigned int a = 0; a < nodes_per_cell; ++a)
+                for (unsigned int b = 0; b < nodes_per_cell; ++b)
+                  local[cell](a, b) += point.weight * point.value[a] * point.gradient[b][i];
+            }
+        if (i == 2)
+          for (const FacePoint &point : top)
+            for (unsigned int a = 0; a < nodes_per_cell; ++a)
+              for (unsigned int b = 0; b < nodes_per_cell; ++b)
+                local[point.cell](a, b) -= point.weight * point.value[a] * point.value[b];
+
+        const auto &partitioner = *nodes.measure().get_partitioner();
+        std::vector<dealii::types::global_dof_index> indices(nodes_per_cell);
+        for (unsigned int cell = 0; cell < n_cells(); ++cell)
+          {
+            for (unsigned int a = 0; a < nodes_per_cell; ++a)
+              indices[a] = partitioner.local_to_global(cell_nodes[cell][a]);
+            nodes.hanging_nodes.distribute_local_to_global(local[cell], indices, gradient[i]);
+          }
+        gradient[i].compress(dealii::VectorOperation::add);
+      }
+  }
+} // namespace graupel

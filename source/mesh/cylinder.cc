@@ -1,0 +1,54 @@
+#include <graupel/base/parameters.h>
+#include <graupel/mesh/cylinder.h>
+
+#include <deal.II/base/numbers.h>
+
+namespace graupel
+{
+  double
+  Cylinder::cross_section() const
+  {
+    return dealii::numbers::PI * diameter * diameter / 4.;
+  }
+
+  void
+  Cylinder::declare(dealii::ParameterHandler &prm)
+  {
+    prm.enter_subsection("Geometry");
+    prm.add_parameter("diameter", diameter, "Inner diameter of the cylinder [m].");
+    prm.add_parameter("height", height, "Height of the cylinder, from its bottom to its top [m].");
+    prm.leave_subsection();
+  }
+
+  void
+  Cylinder::check() const
+  {
+    require(diameter > 0., "Geometry/diameter", "a vessel needs a positive diameter, in metres");
+    require(height > 0., "Geometry/height", "a vessel needs a positive height, in metres");
+  }
+
+  void
+  MeshParameters::declare(dealii::ParameterHandler &prm)
+  {
+    prm.enter_subsection("Mesh");
+    prm.add_parameter("cell size",
+                      cell_size,
+                      "Edge length of the cells that is aimed at; the mesh takes the nearest "
+                      "size that divides the cylinder evenly [m].");
+    prm.leave_subsection();
+  }
+
+  void
+  MeshParameters::check(const Cylinder &cylinder) const
+  {
+    require(cell_size > 0., "Mesh/cell size", "cells need a positive size, in metres");
+    require(cell_size <= cylinder.diameter / 2. && cell_size <= cylinder.height / 2.,
+            "Mesh/cell size",
+            "cells larger than half of the cylinder cannot carry a flow; choose at most "
+            "half of Geometry/diameter and Geometry/height");
+    require(cell_size >= 1e-3 * cylinder.diameter,
+            "Mesh/cell size",
+            "more than a thousand cells across the cylinder is beyond any machine; units are "
+            "metres");
+  }
+} // namespace graupel

@@ -1,0 +1,52 @@
+#include <graupel/mesh/nodal_space.h>
+
+#include <deal.II/base/quadrature_lib.h>
+#include <deal.II/dofs/dof_tools.h>
+#include <deal.II/fe/fe_values.h>
+
+namespace graupel
+{
+  NodalSpace::NodalSpace(const CylinderMesh &mesh)
+    : mesh(mesh)
+    , fe(1)
+    , quadrature(dealii::QGauss<3>(2))
+    , dof_handler(mesh.triangulation())
+  {
+    dof_handler.distribute_dofs(fe);
+    owned = dof_handler.locally_owned_dofs();
+    dealii::DoFTools::extract_locally_relevant_dofs(dof_handler, relevant);
+    hanging_nodes.reinit(relevant);
+    dealii::DoFTools::make_hanging_node_constraints(dof_handler, hanging_nodes);
+    hanging_nodes.close();
+    partitioner = std::make_shared<const dealii::Utilities::MPI::Partitioner>(owned,
+                                                                              relevant,
+                                                                              mesh.communicator());
+
+    initialize(volumes);
+    dealii::FEValues<3>    values(mesh.mapping(),
+                               fe,
+                               quadrature,
+                               dealii::update_values | dealii::update_JxW_values);
+    dealii::Vector<double> cell_volumes(fe.n_dofs_per_cell());
+    std::vector<dealii::types::global_dof_index> nodes(fe.n_dofs_per_cell());
+    for (const auto &cell : dof_handler.active_cell_iterators())
+      if (cell->is_locally_owned())
+        {
+          values.reinit(cell);
+          cell_volumes = 0.;
+          for (const unsigned int q : values.quadrature_point_indices())
+            for (const unsigned int a : values.dof_indices())
+              cell_volumes[a] += values.shape_value(a, q) * values.JxW(q);
+          cell->get_dof_indices(nodes);
+          hanging_nodes.distribute_local_to_global(cell_volumes, nodes, volumes);
+        }
+    volumes.compress(dealii::VectorOperation::add);
+    volumes.update_ghost_values();
+  }
+
+  void
+  NodalSpace::initialize(NodalVector &vector) const
+  {
+    vector.reinit(partitioner);
+  }
+} // namespace graupel

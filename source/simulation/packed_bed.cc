@@ -1,0 +1,301 @@
+#include <graupel/simulation/packed_bed.h>
+
+#include <ctime>
+#include <iomanip>
+#include <sstream>
+
+namespace graupel
+{
+  namespace
+  {
+    // Share of the weight that bottom and wall still carry when the bed counts
+    // as lifted: at its onset the paper has 0.016 and 0.028 N of 0.5 N.
+    constexpr double lifted_load = 0.05;
+    // Part of a case, at its end, over which its numbers are means.
+    constexpr double averaged_part = 0.25;
+
+    double
+    cpu_seconds()
+    {
+      return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
+    }
+
+    // Tells the height of the bed, its void fraction and how it is supported.
+    std::string
+    describe_bed(const BedResult &bed, const Dem &dem)
+    {
+      std::ostringstream text;
+      text << std::setprecision(4) << "bed: " << bed.particle_count << " particles of "
+           << bed.particle_diameter * 1e3 << " mm, height " << bed.height * 1e3
+           << " mm, mean void fraction " << bed.mean_void_fraction << ", "
+           << bed.mean_coordination_number << " contacts each; bottom " << dem.bottom_force()
+           << " N + wall " << dem.wall_force() << " N = "
+           << (dem.bottom_force() + dem.wall_force()) / dem.weight() * 100. << " % of the weight";
+      return text.str();
+    }
+
+    std::string
+    describe_case(const CaseResult &result)
+    {
+      std::ostringstream text;
+      text << std::setprecision(4) << "V_s " << result.superficial_velocity << " m/s: "
+           << result.pressure_drop << " Pa, Ergun " << result.ergun_pressure_drop << " Pa ("
+           << std::showpos << result.deviation_from_ergun * 100. << " %, middle half "
+           << result.gradient_deviation_from_ergun * 100. << " %)" << std::noshowpos
+           << ", bottom force " << result.bottom_force << " N"
+           << (result.fluidized ? ", the bed has lifted" : "")
+           << (result.steady ? "" : ", not steady");
+      return text.str();
+    }
+  } // namespace
+
+  PackedBed::PackedBed(const RunParameters &parameters,
+                       const std::string   &parameter_file,
+                       ResultFiles         &files,
+                       Progress            &progress,
+                       MPI_Comm             communicator)
+    : parameters(parameters)
+    , files(files)
+    , progress(progress)
+    , communicator(communicator)
+    , mesh(parameters.cylinder, parameters.mesh, communicator)
+    , nodes(mesh)
+    , dem(parameters.dem, mesh, summary.costs)
+    , observables(dem.particles(), dem.cylinder(), communicator)
+    , fluid(parameters.flow,
+            parameters.fluid.density,
+            parameters.fluid.viscosity,
+            nodes,
+            summary.costs)
+    , exchange(parameters.filter_length(),
+               Drag(parameters.drag,
+                    parameters.fluid,
+                    parameters.dem.particles.diameter,
+                    parameters.dem.particles.scale),
+               nodes,
+               summary.costs)
+    , next_output(parameters.output.interval)
+    , started(Progress::steady_seconds())
+  {
+    summary.parameter_file = parameter_file;
+    summary.fluid          = parameters.fluid;
+  }
+
+  void
+  PackedBed::run()
+  {
+    std::ostringstream mesh_line;
+    mesh_line << "mesh: " << mesh.triangulation().n_global_active_cells() << " cells, "
+              << nodes.dof_handler.n_dofs() << " nodes, on "
+              << dealii::Utilities::MPI::n_mpi_processes(communicator) << " rank(s)";
+    progress.say(mesh_line.str());
+    fill();
+    settle();
+    flow();
+    write_summary_file();
+  }
+
+  void
+  PackedBed::fill()
+  {
+    Filling filling(parameters.filling, dem);
+    progress.start_phase("fill", 0., 1.);
+    while (filling.step())
+      progress.update(filling.progress());
+    progress.finish_phase();
+    time += filling.time();
+  }
+
+  void
+  PackedBed::settle()
+  {
+    Settling settling(parameters.settling, dem);
+    progress.start_phase("settle", 0., parameters.settling.maximum_time);
+    while (settling.step())
+      progress.update(settling.time());
+    progress.finish_phase();
+    time += settling.time();
+    dem.synchronise();
+
+    const auto bed = observables.bed();
+    summary.bed    = {dem.n_global(),
+                   parameters.simulated_diameter(),
+                   parameters.dem.particles.diameter,
+                   parameters.dem.particles.scale,
+                   dem.solid_volume(),
+                   bed.height,
+                   bed.mean_void_fraction,
+                   dem.coordination_number(),
+                   parameters.cylinder.diameter,
+                   parameters.cylinder.height};
+    progress.say(describe_bed(summary.bed, dem));
+    const CostSheet::Scope timing(summary.costs, CostSheet::output);
+    files.add_particles(time, dem.particles());
+  }
+
+  void
+  PackedBed::flow()
+  {
+    for (const double velocity : parameters.sweep.superficial_velocities)
+      {
+        summary.cases.push_back(run_case(velocity));
+        progress.say(describe_case(summary.cases.back()));
+        files.write_cases(summary.cases);
+      }
+  }
+
+  CaseResult
+  PackedBed::run_case(const double superficial_velocity)
+  {
+    const unsigned int number    = summary.cases.size() + 1;
+    const double       duration  = parameters.sweep.case_duration(superficial_velocity,
+                                                          parameters.cylinder.height);
+    const auto   n_steps   = static_cast<unsigned int>(
+      std::ceil(duration / parameters.sweep.time_step * (1. - 1e-12)));
+    const double begin = time, wall = Progress::steady_seconds(), cpu = cpu_seconds();
+    std::ostringstream name;
+    name << "flow " << number << "/" << parameters.sweep.superficial_velocities.size() << ", V_s "
+         << superficial_velocity << " m/s";
+    progress.start_phase(name.str(), 0., duration);
+
+    SteadyMonitor steady(parameters.sweep.steady_window,
+                         parameters.sweep.steady_tolerance,
+                         dem.weight());
+    case_rows.clear();
+    fluid.set_superficial_velocity(superficial_velocity);
+    for (unsigned int step = 0; step < n_steps; ++step)
+      {
+        step_fluid(duration / n_steps);
+        MonitorRow row           = monitor("flow");
+        row.flow_case            = number;
+        row.superficial_velocity = superficial_velocity;
+        files.add_monitor(row);
+        case_rows.push_back(row);
+        steady.record(row);
+        write_fields_if_due();
+        progress.update(time - begin);
+        if (parameters.sweep.stop_when == "steady" && steady.is_steady())
+          break;
+      }
+    progress.finish_phase();
+
+    CaseResult result;
+    result.superficial_velocity = superficial_velocity;
+    result.steady               = steady.is_steady();
+    result.simulated_time       = time - begin;
+    evaluate(result, number);
+    result.wall_seconds = Progress::steady_seconds() - wall;
+    result.cpu_seconds  = dealii::Utilities::MPI::sum(cpu_seconds() - cpu, communicator);
+    return result;
+  }
+
+  unsigned int
+  PackedBed::step_fluid(const double step)
+  {
+    dem.synchronise();
+    exchange.update(dem.store(), dem.particles());
+    last_report = fluid.step(exchange.medium(), step);
+    dem.particles().external_force = exchange.forces(dem.particles(),
+                                                     fluid,
+                                                     parameters.fluid.density,
+                                                     parameters.dem.particles.gravity);
+    dem.advance(step);
+    time += step;
+    summary.ledger.record(last_report.mass_imbalance,
+                          exchange.momentum_imbalance(),
+                          exchange.solid_volume_error());
+    return last_report.iterations;
+  }
+
+  MonitorRow
+  PackedBed::monitor(const std::string &phase) const
+  {
+    MonitorRow row;
+    row.time               = time;
+    row.phase              = phase;
+    row.pressure_drop      = fluid.mean_pressure(CylinderMesh::bottom) -
+                        fluid.mean_pressure(CylinderMesh::top);
+    row.bed_height         = observables.bed().height;
+    row.bottom_force       = dem.bottom_force();
+    row.wall_force         = dem.wall_force();
+    row.fluid_force        = exchange.total_force()[2] + parameters.fluid.density *
+                                                    parameters.dem.particles.gravity *
+                                                    dem.solid_volume();
+    row.kinetic_energy     = dem.mean_kinetic_energy();
+    row.maximum_speed      = dem.maximum_speed();
+    row.mass_imbalance     = last_report.mass_imbalance;
+    row.momentum_imbalance = exchange.momentum_imbalance();
+    row.solid_volume_error = exchange.solid_volume_error();
+    row.linear_iterations  = last_report.iterations;
+    return row;
+  }
+
+  void
+  PackedBed::write_fields_if_due()
+  {
+    if (parameters.output.interval <= 0. || time < next_output)
+      return;
+    const CostSheet::Scope timing(summary.costs, CostSheet::output);
+    files.add_fields(time, nodes, exchange.medium(), fluid);
+    files.add_particles(time, dem.particles());
+    next_output = time + parameters.output.interval;
+  }
+
+  void
+  PackedBed::evaluate(CaseResult &result, const unsigned int number)
+  {
+    const CostSheet::Scope timing(summary.costs, CostSheet::output);
+    const MonitorRow mean = mean_since(case_rows, time - averaged_part * result.simulated_time);
+    const auto       bed  = observables.bed();
+    const double     diameter = parameters.dem.particles.diameter;
+    const double     velocity = result.superficial_velocity;
+
+    result.bed_height          = bed.height;
+    result.bed_rise            = bed.height - summary.bed.height;
+    result.mean_void_fraction  = bed.mean_void_fraction;
+    result.pressure_drop       = mean.pressure_drop;
+    result.bottom_force        = mean.bottom_force;
+    result.wall_force          = mean.wall_force;
+    result.fluid_force         = mean.fluid_force;
+    result.weight              = dem.weight();
+    result.fluidized           = mean.bottom_force + mean.wall_force <= lifted_load * dem.weight();
+    result.ergun_pressure_drop = ergun_pressure_drop(
+      parameters.fluid, diameter, bed.mean_void_fraction, velocity, bed.height);
+    result.deviation_from_ergun = result.pressure_drop / result.ergun_pressure_drop - 1.;
+
+    const FlowFields fields{nodes,
+                            exchange.medium().void_fraction,
+                            fluid.flux()[2],
+                            fluid.pressure()};
+    const auto   n_slabs = static_cast<unsigned int>(
+      std::max(10l, std::lround(parameters.cylinder.height / parameters.mesh.cell_size)));
+    const auto   axial = axial_profile(fields, n_slabs);
+    const double lower = 0.25 * bed.height, upper = 0.75 * bed.height;
+    const double middle_void_fraction =
+      1. - observables.solid_volume_between(lower, upper) /
+             (parameters.cylinder.cross_section() * (upper - lower));
+    const double gradient = (pressure_at(axial, lower) - pressure_at(axial, upper)) / (upper - lower);
+    result.gradient_deviation_from_ergun =
+      gradient /
+        ergun_pressure_gradient(parameters.fluid, diameter, middle_void_fraction, velocity) -
+      1.;
+
+    const auto radial = radial_profile(fields, parameters.output.annuli, lower, upper);
+    result.wall_channelling_deviation = wall_channelling_deviation(
+      radial, parameters.fluid, diameter, velocity, middle_void_fraction);
+
+    files.write_axial(number, axial, result);
+    files.write_radial(number, radial, parameters.cylinder.diameter / 2.);
+    files.write_mid_plane(number, mid_plane(fields, parameters.output.midplane_points));
+    files.add_fields(time, nodes, exchange.medium(), fluid);
+    files.add_particles(time, dem.particles());
+  }
+
+  void
+  PackedBed::write_summary_file()
+  {
+    summary.wall_seconds = Progress::steady_seconds() - started;
+    summary.cpu_seconds  = cpu_seconds();
+    write_summary(files.path("summary.json"), summary, communicator);
+  }
+} // namespace graupel

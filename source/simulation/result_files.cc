@@ -1,0 +1,222 @@
+#include <graupel/base/parameters.h>
+#include <graupel/simulation/particle_output.h>
+#include <graupel/simulation/result_files.h>
+
+#include <deal.II/base/data_out_base.h>
+#include <deal.II/numerics/data_out.h>
+
+#include <filesystem>
+#include <iomanip>
+#include <regex>
+#include <sstream>
+
+namespace graupel
+{
+  namespace
+  {
+    // Everything that a run writes, so that a new one can take it away first.
+    const std::regex own_files("(parameters\\.prm|log\\.txt|summary\\.json|cases\\.csv|"
+                               "monitors\\.csv|(profiles|radial|midplane)-[0-9]+\\.csv|"
+                               "(solution|particles)\\.pvd|report\\.html)");
+
+    void
+    prepare_directory(const std::string &directory)
+    {
+      namespace fs = std::filesystem;
+      fs::create_directories(directory);
+      for (const auto &entry : fs::directory_iterator(directory))
+        if (std::regex_match(entry.path().filename().string(), own_files))
+          fs::remove(entry.path());
+      for (const char *folder : {"vtu", "figures"})
+        fs::remove_all(fs::path(directory) / folder);
+      fs::create_directory(fs::path(directory) / "vtu");
+      std::ofstream trial(fs::path(directory) / "log.txt");
+      if (!trial)
+        throw std::runtime_error("no file can be made there");
+    }
+
+    std::string
+    numbered(const std::string &name, const unsigned int number)
+    {
+      std::ostringstream text;
+      text << name << '-' << std::setw(2) << std::setfill('0') << number << ".csv";
+      return text.str();
+    }
+  } // namespace
+
+  ResultFiles::ResultFiles(const std::string &directory, MPI_Comm communicator)
+    : directory(directory)
+    , communicator(communicator)
+    , is_writer(dealii::Utilities::MPI::this_mpi_process(communicator) == 0)
+  {
+    std::string failure;
+    if (is_writer)
+      try
+        {
+          prepare_directory(directory);
+        }
+      catch (const std::exception &error)
+        {
+          failure = error.what();
+        }
+    failure = dealii::Utilities::MPI::broadcast(communicator, failure, 0);
+    require(failure.empty(),
+            "Output/directory",
+            "cannot be written (" + failure + "); choose another with --output");
+    if (is_writer)
+      {
+        log_stream = open("log.txt");
+        monitors   = open("monitors.csv");
+        monitors << "time,phase,case,superficial_velocity,pressure_drop,bed_height,bottom_force,"
+                    "wall_force,fluid_force,kinetic_energy_per_particle,maximum_speed,"
+                    "mass_imbalance,momentum_imbalance,solid_volume_error,linear_iterations\n";
+      }
+  }
+
+  std::string
+  ResultFiles::path(const std::string &name) const
+  {
+    return directory + "/" + name;
+  }
+
+  std::ofstream
+  ResultFiles::open(const std::string &name) const
+  {
+    std::ofstream stream(path(name));
+    if (!stream)
+      throw std::runtime_error("Cannot write " + path(name) + ": is the disk full?");
+    stream << std::setprecision(10);
+    return stream;
+  }
+
+  void
+  ResultFiles::write_parameters(const dealii::ParameterHandler &prm)
+  {
+    if (!is_writer)
+      return;
+    auto stream = open("parameters.prm");
+    prm.print_parameters(stream,
+                         dealii::ParameterHandler::PRM |
+                           dealii::ParameterHandler::KeepDeclarationOrder);
+  }
+
+  void
+  ResultFiles::add_monitor(const MonitorRow &row)
+  {
+    if (!is_writer)
+      return;
+    monitors << row.time << ',' << row.phase << ',' << row.flow_case << ','
+             << row.superficial_velocity << ',' << row.pressure_drop << ',' << row.bed_height << ','
+             << row.bottom_force << ',' << row.wall_force << ',' << row.fluid_force << ','
+             << row.kinetic_energy << ',' << row.maximum_speed << ',' << row.mass_imbalance << ','
+             << row.momentum_imbalance << ',' << row.solid_volume_error << ','
+             << row.linear_iterations << std::endl;
+  }
+
+  void
+  ResultFiles::write_cases(const std::vector<CaseResult> &cases)
+  {
+    if (!is_writer)
+      return;
+    auto stream = open("cases.csv");
+    stream << "superficial_velocity,pressure_drop,ergun_pressure_drop,deviation_from_ergun,"
+              "gradient_deviation_from_ergun,wall_channelling_deviation,bed_height,bed_rise,"
+              "mean_void_fraction,bottom_force,wall_force,fluid_force,weight,fluidized,steady,"
+              "simulated_time,wall_seconds,cpu_seconds\n";
+    for (const CaseResult &row : cases)
+      stream << row.superficial_velocity << ',' << row.pressure_drop << ','
+             << row.ergun_pressure_drop << ',' << row.deviation_from_ergun << ','
+             << row.gradient_deviation_from_ergun << ',' << row.wall_channelling_deviation << ','
+             << row.bed_height << ',' << row.bed_rise << ',' << row.mean_void_fraction << ','
+             << row.bottom_force << ',' << row.wall_force << ',' << row.fluid_force << ','
+             << row.weight << ',' << row.fluidized << ',' << row.steady << ','
+             << row.simulated_time << ',' << row.wall_seconds << ',' << row.cpu_seconds << '\n';
+  }
+
+  void
+  ResultFiles::write_axial(const unsigned int             number,
+                           const std::vector<RegionMean> &profile,
+                           const CaseResult              &result)
+  {
+    if (!is_writer)
+      return;
+    auto stream = open(numbered("profiles", number));
+    stream << "z,pressure,void_fraction,superficial_velocity,ergun_pressure\n";
+    for (const RegionMean &slab : profile)
+      stream << slab.height << ',' << slab.pressure << ',' << slab.void_fraction << ','
+             << slab.flux << ','
+             << result.ergun_pressure_drop * std::max(0., 1. - slab.height / result.bed_height)
+             << '\n';
+  }
+
+  void
+  ResultFiles::write_radial(const unsigned int             number,
+                            const std::vector<RegionMean> &profile,
+                            const double                   radius)
+  {
+    if (!is_writer)
+      return;
+    auto stream = open(numbered("radial", number));
+    stream << "wall_distance,void_fraction,superficial_velocity\n";
+    for (const RegionMean &annulus : profile)
+      stream << radius - annulus.radius << ',' << annulus.void_fraction << ',' << annulus.flux
+             << '\n';
+  }
+
+  void
+  ResultFiles::write_mid_plane(const unsigned int number, const std::vector<PlanePoint> &points)
+  {
+    if (!is_writer)
+      return;
+    auto stream = open(numbered("midplane", number));
+    stream << std::setprecision(6) << "x,z,void_fraction,superficial_velocity,pressure\n";
+    for (const PlanePoint &point : points)
+      stream << point.x << ',' << point.z << ',' << point.void_fraction << ',' << point.flux << ','
+             << point.pressure << '\n';
+  }
+
+  void
+  ResultFiles::add_fields(const double      time,
+                          const NodalSpace &nodes,
+                          const Medium     &medium,
+                          const FlowSolver &flow)
+  {
+    dealii::DataOut<3> output;
+    output.attach_dof_handler(nodes.dof_handler);
+    output.add_data_vector(medium.void_fraction, "void_fraction");
+    output.add_data_vector(medium.drag, "drag_coefficient");
+    output.add_data_vector(flow.pressure(), "pressure");
+    for (unsigned int i = 0; i < 3; ++i)
+      output.add_data_vector(flow.flux()[i], std::string("flux_") + "xyz"[i]);
+    output.build_patches(nodes.mesh.mapping());
+    field_records.emplace_back(time,
+                               "vtu/" + output.write_vtu_with_pvtu_record(directory + "/vtu/",
+                                                                          "solution",
+                                                                          field_records.size(),
+                                                                          communicator,
+                                                                          4));
+    write_records("solution.pvd", field_records);
+  }
+
+  void
+  ResultFiles::add_particles(const double time, const ParticleArrays &particles)
+  {
+    particle_records.emplace_back(time,
+                                  "vtu/" + ParticleOutput(particles).write_vtu_with_pvtu_record(
+                                             directory + "/vtu/",
+                                             "particles",
+                                             particle_records.size(),
+                                             communicator,
+                                             4));
+    write_records("particles.pvd", particle_records);
+  }
+
+  void
+  ResultFiles::write_records(const std::string &name, const Records &records) const
+  {
+    if (!is_writer)
+      return;
+    auto stream = open(name);
+    dealii::DataOutBase::write_pvd_record(stream, records);
+  }
+} // namespace graupel

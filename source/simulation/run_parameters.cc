@@ -1,0 +1,114 @@
+#include <graupel/base/parameters.h>
+#include <graupel/closures/bed_correlations.h>
+#include <graupel/simulation/run_parameters.h>
+
+#include <iomanip>
+#include <sstream>
+
+namespace graupel
+{
+  namespace
+  {
+    // Void fraction of a bed that is not there yet, for estimates only.
+    constexpr double guessed_void_fraction = 0.4;
+  } // namespace
+
+  void
+  RunParameters::declare(dealii::ParameterHandler &prm)
+  {
+    cylinder.declare(prm);
+    mesh.declare(prm);
+    dem.declare(prm);
+    filling.declare(prm);
+    settling.declare(prm);
+    fluid.declare(prm);
+    drag.declare(prm);
+    coupling.declare(prm);
+    flow.declare(prm);
+    sweep.declare(prm);
+    output.declare(prm);
+  }
+
+  void
+  RunParameters::check() const
+  {
+    cylinder.check();
+    mesh.check(cylinder);
+    dem.check(cylinder);
+    filling.check(cylinder, dem.particles);
+    settling.check();
+    fluid.check();
+    coupling.check();
+    drag.check(dem.particles.scale, dem.particles.diameter);
+    flow.check();
+    sweep.check();
+    output.check();
+    require(filter_length() <= cylinder.diameter,
+            "Coupling/filter length",
+            "a filter longer than the vessel's diameter would smear the bed over all of it; "
+            "one particle diameter is usual");
+  }
+
+  double
+  RunParameters::simulated_diameter() const
+  {
+    return 2. * dem.particles.simulated_radius();
+  }
+
+  double
+  RunParameters::filter_length() const
+  {
+    return coupling.length(simulated_diameter());
+  }
+
+  std::string
+  RunParameters::describe() const
+  {
+    const double       diameter = dem.particles.diameter;
+    std::ostringstream text;
+    text << std::setprecision(4);
+    const auto line = [&](const std::string &name, const auto value, const std::string &unit) {
+      text << "  " << std::left << std::setw(46) << name << value << " " << unit << '\n';
+    };
+    text << "Sizes\n";
+    line("vessel diameter / simulated particle", cylinder.diameter / simulated_diameter(), "-");
+    line("simulated particle diameter", simulated_diameter(), "m");
+    line("filter length", filter_length(), "m");
+    line("cell size aimed at", mesh.cell_size, "m");
+    text << "Steps\n";
+    line("characteristic (Rayleigh) time of a contact", dem.characteristic_time(), "s");
+    line("substep of the particles", dem.substep(), "s");
+    line("step of the fluid", sweep.time_step, "s");
+    line("substeps in a step of the fluid", std::ceil(sweep.time_step / dem.substep()), "");
+
+    const double bed_height = 0.9 * cylinder.height;
+    const double load       = (1. - guessed_void_fraction) * dem.particles.density *
+                        dem.particles.gravity * bed_height * simulated_diameter() *
+                        simulated_diameter();
+    line("overlap under a bed of 0.9 of the height",
+         dem.overlap_under(load) / simulated_diameter() * 100.,
+         "% of the diameter");
+    text << "Flow through a bed of void fraction " << guessed_void_fraction << '\n';
+    line("particle / fluid density", dem.particles.density / fluid.density, "-");
+    line("onset of fluidisation by Ergun",
+         ergun_onset_velocity(fluid,
+                              diameter,
+                              guessed_void_fraction,
+                              dem.particles.density,
+                              dem.particles.gravity),
+         "m/s");
+    for (const double velocity : sweep.superficial_velocities)
+      {
+        const double gradient =
+          ergun_pressure_gradient(fluid, diameter, guessed_void_fraction, velocity);
+        const double weight = (1. - guessed_void_fraction) *
+                              (dem.particles.density - fluid.density) * dem.particles.gravity;
+        text << "  V_s = " << velocity << " m/s: Re = "
+             << fluid.density * velocity * diameter / fluid.viscosity
+             << ", Ergun's gradient " << gradient << " Pa/m = " << gradient / weight
+             << " of the weight, at most "
+             << sweep.case_duration(velocity, cylinder.height) << " s\n";
+      }
+    return text.str();
+  }
+} // namespace graupel

@@ -1,0 +1,142 @@
+#include <graupel/closures/bed_correlations.h>
+#include <graupel/closures/drag_laws.h>
+#include <graupel/closures/fluid_properties.h>
+
+#include <deal.II/base/numbers.h>
+
+#include <gtest/gtest.h>
+
+#include <set>
+#include <stdexcept>
+
+using namespace graupel;
+
+namespace
+{
+  const FluidProperties air;
+  constexpr double diameter = 1.6e-3;
+
+  // A handful of operations in double precision.
+  constexpr double round_off = 1e-13;
+
+  // Drag per volume and per slip of a bed of spheres [kg/(m^3 s)]: the number
+  // density times beta_p = pi/8 mu d N, all from its definition.
+  double exchange_coefficient(const double drag_number, const double alpha)
+  {
+    const double volume = dealii::numbers::PI / 6. * diameter * diameter * diameter;
+    const double beta_p =
+        dealii::numbers::PI / 8. * air.viscosity * diameter * drag_number;
+    return (1. - alpha) / volume * beta_p;
+  }
+
+  double reynolds(const double slip)
+  {
+    return air.density * slip * diameter / air.viscosity;
+  }
+
+  void expect_equal(const double computed, const double expected, const std::string &what)
+  {
+    std::cout << what << ": " << computed << ", expected " << expected << std::endl;
+    EXPECT_NEAR(computed, expected, round_off * std::abs(expected)) << what;
+  }
+} // namespace
+
+TEST(DragLaws, ErgunCoefficientIsThePapersEquation4)
+{
+  // C_d = 4/3 (150 0.6 / (0.4 90) + 1.75) = 4/3 (2.5 + 1.75), by hand.
+  expect_equal(drag_coefficient(find_drag_law("ergun"), 0.4, 90.), 17. / 3., "C_d");
+}
+
+TEST(DragLaws, UniformBedOfErgunHasErgunsGradient)
+{
+  // Steady uniform model A: alpha dp/dz = beta u.
+  for (const double alpha : { 0.35, 0.4, 0.6 })
+    for (const double superficial : { 1e-4, 0.271, 3. })
+      {
+        const double u = superficial / alpha;
+        const double beta =
+            exchange_coefficient(ergun_drag_number(alpha, reynolds(u)), alpha);
+        expect_equal(beta * u / alpha,
+                     ergun_pressure_gradient(air, diameter, alpha, superficial),
+                     "gradient [Pa/m]");
+      }
+}
+
+TEST(DragLaws, EveryLawHasItsPublishedExchangeCoefficient)
+{
+  // The model-A exchange coefficients as printed by Gidaspow, on other routes
+  // than the code takes.
+  const auto ergun = [](const double alpha, const double u) {
+    return 150. * std::pow(1. - alpha, 2) * air.viscosity /
+               (alpha * diameter * diameter) +
+           1.75 * (1. - alpha) * air.density * u / diameter;
+  };
+  const auto wen_yu = [](const double alpha, const double u) {
+    const double x  = alpha * reynolds(u);
+    const double c0 = x < 1000. ? 24. / x * (1. + 0.15 * std::pow(x, 0.687)) : 0.44;
+    return 0.75 * c0 * alpha * (1. - alpha) * air.density * u / diameter *
+           std::pow(alpha, -2.65);
+  };
+  const auto gidaspow = [&](const double alpha, const double u) {
+    return alpha < 0.8 ? ergun(alpha, u) : wen_yu(alpha, u);
+  };
+  const std::map<std::string, std::function<double(double, double)>> published{
+    { "ergun", ergun }, { "wen-yu", wen_yu }, { "gidaspow", gidaspow }
+  };
+
+  for (const DragLaw &law : drag_laws())
+    for (const double alpha : { 0.4, 0.79, 0.81, 0.99 })
+      for (const double u : { 1e-3, 0.7, 20. })
+        expect_equal(exchange_coefficient(law.drag_number(alpha, reynolds(u)), alpha),
+                     published.at(law.name)(alpha, u),
+                     law.name + " beta [kg/m^3/s]");
+}
+
+TEST(DragLaws, WenYuOfOneSphereIsSchillerNaumann)
+{
+  const DragLaw &law = find_drag_law("wen-yu");
+  // 24/Re (1 + 0.15 Re^0.687), evaluated by hand; 5 digits.
+  EXPECT_NEAR(drag_coefficient(law, 1., 1.), 27.6, 1e-12);
+  EXPECT_NEAR(drag_coefficient(law, 1., 100.), 1.09173, 5e-6);
+  EXPECT_NEAR(drag_coefficient(law, 1., 1e4), 0.44, 1e-13);
+  // Stokes: F = 3 pi mu d u, that is N = 24.
+  EXPECT_NEAR(law.drag_number(1., 0.), 24., 1e-12);
+}
+
+TEST(DragLaws, AreFiniteAtRest)
+{
+  expect_equal(ergun_drag_number(0.4, 0.), 300., "Ergun at rest");
+  expect_equal(wen_yu_drag_number(0.5, 0.), 24. * std::pow(2., 2.65), "Wen-Yu at rest");
+  for (const DragLaw &law : drag_laws())
+    for (const double alpha : { 0.2, 0.4, 0.8, 1. })
+      {
+        const double at_rest = law.drag_number(alpha, 0.);
+        EXPECT_TRUE(std::isfinite(at_rest)) << law.name;
+        // Continuous: the first correction of Schiller and Naumann is of order Re^0.687.
+        EXPECT_NEAR(law.drag_number(alpha, 1e-9), at_rest, 1e-5 * (1. + at_rest))
+            << law.name;
+      }
+}
+
+TEST(DragLaws, GidaspowSwitchesAtFourFifths)
+{
+  const double below = std::nextafter(0.8, 0.), re = 50.;
+  expect_equal(
+      gidaspow_drag_number(below, re), ergun_drag_number(below, re), "below 0.8");
+  expect_equal(gidaspow_drag_number(0.8, re), wen_yu_drag_number(0.8, re), "at 0.8");
+  EXPECT_GT(std::abs(ergun_drag_number(0.8, re) / wen_yu_drag_number(0.8, re) - 1.), 0.01)
+      << "the two sides must differ for this test to see the switch";
+}
+
+TEST(DragLaws, TableIsSound)
+{
+  std::set<std::string> names;
+  for (const DragLaw &law : drag_laws())
+    {
+      EXPECT_TRUE(names.insert(law.name).second) << law.name << " is there twice";
+      EXPECT_EQ(&find_drag_law(law.name), &law);
+      EXPECT_FALSE(law.form.empty());
+      EXPECT_FALSE(law.source.empty());
+    }
+  EXPECT_THROW(find_drag_law("egrun"), std::out_of_range);
+}

@@ -1,0 +1,113 @@
+#ifndef graupel_tests_dem_small_column_h
+#define graupel_tests_dem_small_column_h
+
+#include <graupel/dem/dem.h>
+
+#include <gtest/gtest.h>
+
+#include <map>
+
+namespace graupel
+{
+  /** A small column with spheres of 2 mm, and a DEM in it. */
+  struct SmallColumn
+  {
+    explicit SmallColumn(const DemParameters &parameters,
+                         MPI_Comm             communicator = MPI_COMM_WORLD,
+                         const Cylinder      &cylinder     = vessel())
+      : mesh(cylinder, mesh_parameters(), communicator)
+      , dem(parameters, mesh, costs)
+    {}
+
+    static Cylinder
+    vessel()
+    {
+      Cylinder cylinder;
+      cylinder.diameter = 0.01;
+      cylinder.height   = 0.03;
+      return cylinder;
+    }
+
+    static MeshParameters
+    mesh_parameters()
+    {
+      MeshParameters parameters;
+      parameters.cell_size = 2.5e-3;
+      return parameters;
+    }
+
+    static DemParameters
+    parameters()
+    {
+      DemParameters parameters;
+      parameters.particles.diameter = 2e-3;
+      return parameters;
+    }
+
+    /** The own row of a particle, or -1 if another rank has it. */
+    int
+    row(const std::int64_t id) const
+    {
+      const auto &p = dem.particles();
+      for (unsigned int i = 0; i < p.n_owned; ++i)
+        if (p.id[i] == id)
+          return i;
+      return -1;
+    }
+
+    void
+    set_velocity(const std::int64_t id, const dealii::Tensor<1, 3> &velocity)
+    {
+      if (row(id) >= 0)
+        dem.particles().velocity[row(id)] = velocity;
+    }
+
+    /** A vector of one particle, on all ranks. */
+    dealii::Tensor<1, 3>
+    everywhere(const std::int64_t                           id,
+               std::vector<dealii::Tensor<1, 3>> ParticleArrays::*what) const
+    {
+      dealii::Tensor<1, 3> value;
+      if (row(id) >= 0)
+        value = (dem.particles().*what)[row(id)];
+      return dealii::Utilities::MPI::sum(value, dem.communicator());
+    }
+
+    dealii::Tensor<1, 3>
+    velocity(const std::int64_t id) const
+    {
+      return everywhere(id, &ParticleArrays::velocity);
+    }
+
+    dealii::Point<3>
+    position(const std::int64_t id) const
+    {
+      dealii::Tensor<1, 3> value;
+      if (row(id) >= 0)
+        value = dem.particles().position[row(id)];
+      return dealii::Point<3>(dealii::Utilities::MPI::sum(value, dem.communicator()));
+    }
+
+    /** Position, velocity, spin and force of every particle by id, on all ranks. */
+    std::map<std::int64_t, std::vector<double>>
+    state() const
+    {
+      std::map<std::int64_t, std::vector<double>> mine, all;
+      const auto                                 &p = dem.particles();
+      for (unsigned int i = 0; i < p.n_owned; ++i)
+        for (const dealii::Tensor<1, 3> &v :
+             {dealii::Tensor<1, 3>(p.position[i]), p.velocity[i], p.spin[i], p.force[i], p.torque[i]})
+          for (unsigned int d = 0; d < 3; ++d)
+            mine[p.id[i]].push_back(v[d]);
+      for (const auto &of_rank : dealii::Utilities::MPI::all_gather(dem.communicator(), mine))
+        all.insert(of_rank.begin(), of_rank.end());
+      return all;
+    }
+
+    CylinderMesh mesh;
+    CostSheet    costs;
+    Dem          dem;
+  };
+} // namespace graupel
+
+#endif

@@ -1,0 +1,152 @@
+#include <graupel/fluid/flow_solver.h>
+
+#include <gtest/gtest.h>
+
+using namespace graupel;
+
+namespace
+{
+  constexpr double air_density   = 1.18415;
+  constexpr double air_viscosity = 1.85508e-5;
+
+  // A short column with a few hundred cells, the flow in it, and its medium.
+  struct Column
+  {
+    explicit Column(const FlowParameters &parameters = {}, const double cell_size = 3.2e-3)
+      : mesh({0.025, 0.05}, {cell_size}, MPI_COMM_WORLD)
+      , nodes(mesh)
+      , flow(parameters, air_density, air_viscosity, nodes, costs)
+      , medium(nodes)
+    {}
+
+    void
+    set(const std::function<double(const dealii::Point<3> &)> &void_fraction,
+        const std::function<double(const dealii::Point<3> &)> &drag)
+    {
+      const auto &partitioner = *nodes.measure().get_partitioner();
+      for (const auto &cell : nodes.dof_handler.active_cell_iterators())
+        if (cell->is_locally_owned())
+          for (const unsigned int v : cell->vertex_indices())
+            {
+              const auto dof = cell->vertex_dof_index(v, 0);
+              if (partitioner.in_local_range(dof))
+                {
+                  medium.void_fraction(dof) = void_fraction(cell->vertex(v));
+                  medium.drag(dof)          = drag(cell->vertex(v));
+                }
+            }
+      medium.void_fraction.update_ghost_values();
+      medium.drag.update_ghost_values();
+    }
+
+    double
+    pressure_drop() const
+    {
+      return flow.mean_pressure(CylinderMesh::bottom) - flow.mean_pressure(CylinderMesh::top);
+    }
+
+    CostSheet    costs;
+    CylinderMesh mesh;
+    NodalSpace   nodes;
+    FlowSolver   flow;
+    Medium       medium;
+  };
+} // namespace
+
+TEST(TimeScheme, DifferentiatesPolynomialsExactly)
+{
+  // BDF1 is exact for linear, BDF2 for quadratic functions, with any steps.
+  const double step = 0.3, last = 0.7, t = 2.;
+  const auto   linear    = [](const double x) { return 3. * x - 1.; };
+  const auto   quadratic = [&](const double x) { return 2. * x * x + linear(x); };
+  const TimeScheme first = bdf1(step), second = bdf2(step, last);
+  EXPECT_NEAR(first.now * linear(t) + first.old * linear(t - step), 3., 1e-12);
+  EXPECT_NEAR(second.now * quadratic(t) + second.old * quadratic(t - step) +
+                second.older * quadratic(t - step - last),
+              4. * t + 3.,
+              1e-12);
+}
+
+TEST(FlowSolver, DropsTheDarcyPressureInAUniformBed)
+{
+  // alpha and B constant: -alpha dp/dz = B V / alpha, at any time step.
+  Column       column;
+  const double alpha = 0.4, drag = 1500., velocity = 0.3;
+  column.set([&](const auto &) { return alpha; }, [&](const auto &) { return drag; });
+  column.flow.set_superficial_velocity(velocity);
+  const double expected = drag * velocity / (alpha * alpha) * 0.05;
+  for (const double step : {1e-4, 5e-3, 0.1, 1.})
+    {
+      FlowSolver::Report report;
+      for (unsigned int n = 0; n < 6; ++n)
+        report = column.flow.step(column.medium, step);
+      const double drop = column.pressure_drop();
+      std::cout << "step " << step << " s: " << drop << " Pa of " << expected << ", iterations "
+                << report.iterations << ", mass " << report.mass_imbalance << std::endl;
+      EXPECT_NEAR(drop, expected, (step < 1e-3 ? 1e-4 : 1e-8) * expected);
+      EXPECT_LE(report.mass_imbalance, 1e-9);
+    }
+}
+
+TEST(FlowSolver, CrossesAJumpOfTheVoidFraction)
+{
+  // A bed below 25 mm, clear gas above: all of the pressure falls in the bed,
+  // and the pressure falls monotonically along the axis.
+  Column       column;
+  const double velocity = 0.3, drag = 1500., alpha = 0.39;
+  const double surface = 0.025;
+  column.set([&](const auto &x) { return x[2] < surface + 1e-6 ? alpha : 1.; },
+             [&](const auto &x) { return x[2] < surface + 1e-6 ? drag : 0.; });
+  column.flow.set_superficial_velocity(velocity);
+  FlowSolver::Report report;
+  for (unsigned int n = 0; n < 60; ++n)
+    report = column.flow.step(column.medium, 5e-3);
+  // The nodes up to the surface carry drag, each over the length of its basis
+  // function: the bed's length plus half a cell.
+  double length = 0.;
+  const auto &measure = column.nodes.measure();
+  for (unsigned int k = 0; k < measure.locally_owned_size(); ++k)
+    if (column.medium.drag.local_element(k) > 0.)
+      length += measure.local_element(k);
+  length = dealii::Utilities::MPI::sum(length, MPI_COMM_WORLD) /
+           column.mesh.cylinder().cross_section();
+  const double expected = drag * velocity / (alpha * alpha) * length;
+  const double bernoulli =
+    0.5 * air_density * velocity * velocity * (1. / (alpha * alpha) - 1.);
+  std::cout << column.pressure_drop() << " Pa of " << expected << " (Bernoulli " << bernoulli
+            << "), iterations " << report.iterations << std::endl;
+  EXPECT_NEAR(column.pressure_drop(), expected, 0.01 * expected);
+  EXPECT_LE(report.mass_imbalance, 1e-9);
+}
+
+TEST(FlowSolver, KeepsStillGasStill)
+{
+  Column column;
+  column.set([](const auto &x) { return 0.4 + 0.1 * std::sin(300. * x[2]); },
+             [](const auto &) { return 1500.; });
+  column.flow.set_superficial_velocity(0.);
+  column.flow.step(column.medium, 1e-3);
+  for (const auto &component : column.flow.flux())
+    EXPECT_LE(component.linfty_norm(), 1e-14);
+  EXPECT_LE(column.flow.pressure().linfty_norm(), 1e-12);
+}
+
+TEST(FlowSolver, StoresWhatTheVoidFractionFrees)
+{
+  // Solids that leave a closed-bottom column at a uniform rate draw fluid in:
+  // the outflow is minus the rate of the void volume.
+  Column column;
+  column.flow.set_superficial_velocity(0.2);
+  column.set([](const auto &) { return 0.4; }, [](const auto &) { return 100.; });
+  column.flow.step(column.medium, 1e-3);
+  column.set([](const auto &) { return 0.401; }, [](const auto &) { return 100.; });
+  column.flow.step(column.medium, 1e-3);
+  double volume = 0.;
+  for (unsigned int k = 0; k < column.nodes.measure().locally_owned_size(); ++k)
+    volume += column.nodes.measure().local_element(k);
+  volume = dealii::Utilities::MPI::sum(volume, MPI_COMM_WORLD);
+  const double inflow   = 0.2 * column.mesh.cylinder().cross_section();
+  const double expected = inflow - 1. * volume;
+  EXPECT_NEAR(column.flow.outflow(), expected, 1e-4 * inflow)
+    << "the cross-section by quadrature differs from the circle in the fifth digit";
+}

@@ -1,0 +1,122 @@
+"""An output directory such as a run writes, for report_test.py."""
+
+import csv
+import json
+import math
+
+import numpy as np
+
+from report_parts import figures_run, reference, run_output
+
+VESSEL = 25e-3
+AREA = math.pi * VESSEL**2 / 4.0
+DENSITY, VISCOSITY = 1.18415, 1.85508e-5
+HEIGHT, VOID_FRACTION = 0.1499, 0.388
+WEIGHT = 0.48
+
+
+def one_case(velocity, lifted):
+    """A plausible flow case; the gas carries at most the weight."""
+    ergun = reference.ergun_pressure_drop(
+        velocity, HEIGHT, VOID_FRACTION, 1.6e-3, DENSITY, VISCOSITY
+    )
+    fluid = min(0.97 * ergun * AREA, WEIGHT)
+    return {
+        "superficial_velocity": velocity,
+        "pressure_drop": fluid / AREA,
+        "ergun_pressure_drop": ergun,
+        "deviation_from_ergun": fluid / AREA / ergun - 1.0,
+        "gradient_deviation_from_ergun": -0.021,
+        "wall_channelling_deviation": -0.018,
+        "bed_height": HEIGHT + (2.2e-3 if lifted else 0.0),
+        "bed_rise": 2.2e-3 if lifted else 0.0,
+        "mean_void_fraction": VOID_FRACTION,
+        "bottom_force": 0.4 * (WEIGHT - fluid),
+        "wall_force": 0.6 * (WEIGHT - fluid),
+        "fluid_force": fluid,
+        "weight": WEIGHT,
+        "fluidized": lifted,
+        "steady": True,
+        "simulated_time": 1.2,
+        "wall_seconds": 700.0,
+        "cpu_seconds": 1400.0,
+    }
+
+
+def summary_of(cases, scale=1.0, vessel=VESSEL, original=1.6e-3):
+    """A summary.json with every key."""
+    sections = figures_run.SECTIONS
+    return {
+        "program": {
+            "name": "graupel",
+            "version": "0.1.0",
+            "deal_ii_version": "9.4.1",
+            "mpi_ranks": 2,
+            "parameter_file": "prm/packed-bed/<sweep>.prm",
+        },
+        "bed": {
+            "particle_count": 20997,
+            "particle_diameter": original * scale,
+            "scale": scale,
+            "solid_volume": 4.5e-5,
+            "height": HEIGHT,
+            "mean_void_fraction": VOID_FRACTION,
+            "mean_coordination_number": 5.9,
+            "vessel_diameter": vessel,
+            "vessel_height": 0.169,
+            "original_diameter": original,
+        },
+        "fluid": {"density": DENSITY, "viscosity": VISCOSITY},
+        "cases": cases,
+        "ledger": {
+            "max_mass_imbalance": 2e-11,
+            "max_momentum_imbalance": 3e-13,
+            "max_solid_volume_error": 0.0,
+        },
+        "cost": {
+            "wall_seconds": 1600.0,
+            "cpu_seconds": 3100.0,
+            "particle_steps": 4000000000,
+            "contact_steps": 12000000000,
+            "fluid_steps": 2400,
+            "seconds_in": {name: 100.0 for name in sections},
+        },
+    }
+
+
+def write_csv(path, header, rows):
+    """A CSV file as the program writes it."""
+    with open(path, "w", newline="", encoding="utf-8") as file:
+        csv.writer(file).writerows([header, *rows])
+
+
+def write_run(directory, scale=1.0, vessel=VESSEL, steps=60):
+    """A complete output directory with one fixed-bed case and one lifted one."""
+    cases = [one_case(0.271, False), one_case(0.534, True)]
+    summary = summary_of(cases, scale, vessel)
+    (directory / "summary.json").write_text(json.dumps(summary), encoding="utf-8")
+    rows = [
+        [str(case[key]).lower() if key in run_output.CASE_FLAGS else case[key] for key in case]
+        for case in cases
+    ]
+    write_csv(directory / "cases.csv", list(cases[0]), rows)
+    phases = [("fill", 0), ("settle", 0), ("flow", 1), ("flow", 2)]
+    numbers = [0.3, 400.0, HEIGHT, 0.1, 0.2, 0.2, 1e-9, 1e-3, 1e-11, 1e-13, 0.0, 12]
+    rows = [[step * 1e-3, *phases[4 * step // steps], *numbers] for step in range(steps)]
+    write_csv(directory / "monitors.csv", run_output.MONITOR_COLUMNS, rows)
+    for number, case in enumerate(cases, start=1):
+        z = np.linspace(0.0, 0.169, 40)
+        fall = np.maximum(0.0, 1.0 - z / HEIGHT)
+        rows = [
+            [height, case["pressure_drop"] * part, 0.39 if part > 0.0 else 1.0, 0.3, 400.0 * part]
+            for height, part in zip(z, fall)
+        ]
+        write_csv(directory / f"profiles-{number:02d}.csv", run_output.PROFILE_COLUMNS, rows)
+        rows = [[distance, 0.4, 0.3] for distance in np.linspace(0.0, 0.0125, 20)]
+        write_csv(directory / f"radial-{number:02d}.csv", run_output.RADIAL_COLUMNS, rows)
+    rows = [
+        [x, height, 0.4 if height < HEIGHT else 1.0, 0.5, 100.0]
+        for x in np.linspace(-0.0125, 0.0125, 11)
+        for height in np.linspace(0.0, 0.169, 60)
+    ]
+    write_csv(directory / "midplane-02.csv", run_output.MIDPLANE_COLUMNS, rows)
