@@ -3,7 +3,6 @@
 
 #include <deal.II/grid/grid_tools.h>
 
-#include <set>
 #include <sstream>
 
 namespace graupel
@@ -23,37 +22,45 @@ namespace graupel
       n_properties   = springs + SpringTable::n_numbers
     };
 
-    // How far outside of the unit cell a point may lie by rounding [-].
-    constexpr double unit_cell_tolerance = 1e-9;
+    // How far outside of the unit cell a point may lie by the rounding of the
+    // mapping's inverse [-].
+    constexpr double unit_cell_tolerance = 1e-7;
 
-    void
-    put(double *numbers, const dealii::Tensor<1, 3> &vector)
+    void put(double *numbers, const dealii::Tensor<1, 3> &vector)
     {
       for (unsigned int d = 0; d < 3; ++d)
         numbers[d] = vector[d];
     }
 
-    dealii::Tensor<1, 3>
-    get(const double *numbers)
+    dealii::Tensor<1, 3> get(const double *numbers)
     {
-      return dealii::Tensor<1, 3>({numbers[0], numbers[1], numbers[2]});
+      return dealii::Tensor<1, 3>({ numbers[0], numbers[1], numbers[2] });
     }
   } // namespace
 
   ParticleStore::ParticleStore(const CylinderMesh &mesh, const double density)
-    : mesh(mesh)
-    , density(density)
-    , cache(mesh.triangulation(), mesh.mapping())
-    , handler(mesh.triangulation(), mesh.mapping(), n_properties)
-  {}
+      : mesh(mesh)
+      , density(density)
+      , cache(mesh.triangulation(), mesh.mapping())
+      , handler(mesh.triangulation(), mesh.mapping(), n_properties)
+  {
+    handler.signals.particle_lost.connect(
+        [this](const dealii::Particles::ParticleIterator<3> &particle,
+               const CellIterator &) {
+          const auto properties = particle->get_properties();
+          strays.push_back({ particle->get_id(),
+                             particle->get_location(),
+                             std::vector<double>(properties.begin(), properties.end()) });
+        });
+  }
 
-  ParticleStore::Location
-  ParticleStore::locate(const dealii::Point<3> &point, const double reach) const
+  ParticleStore::Location ParticleStore::locate(const dealii::Point<3> &point,
+                                                const double reach) const
   {
     // The boxes are those of the vertices, and a curved cell bulges out of its
     // own, so look in the boxes of the surroundings too.
-    namespace bgi        = boost::geometry::index;
-    const auto  &boxes   = cache.get_locally_owned_cell_bounding_boxes_rtree();
+    namespace bgi     = boost::geometry::index;
+    const auto &boxes = cache.get_locally_owned_cell_bounding_boxes_rtree();
     dealii::BoundingBox<3> around(std::make_pair(point, point));
     around.extend(reach);
 
@@ -61,8 +68,9 @@ namespace graupel
     for (auto box = boxes.qbegin(bgi::intersects(around)); box != boxes.qend(); ++box)
       try
         {
-          location.cell      = box->second;
-          location.reference = mesh.mapping().transform_real_to_unit_cell(location.cell, point);
+          location.cell = box->second;
+          location.reference =
+              mesh.mapping().transform_real_to_unit_cell(location.cell, point);
           if (dealii::GeometryInfo<3>::is_inside_unit_cell(location.reference,
                                                            unit_cell_tolerance))
             {
@@ -77,63 +85,94 @@ namespace graupel
     return location;
   }
 
-  void
-  ParticleStore::insert(const std::vector<dealii::Point<3>> &positions,
-                        const double                         sphere_radius,
-                        const dealii::Tensor<1, 3>          &start_velocity)
+  std::vector<bool> ParticleStore::place(const std::vector<Traveller> &travellers)
   {
-    namespace mpi              = dealii::Utilities::MPI;
-    const unsigned int me      = mpi::this_mpi_process(communicator());
-    const unsigned int nobody  = mpi::n_mpi_processes(communicator());
-    const unsigned int n       = positions.size();
+    namespace mpi             = dealii::Utilities::MPI;
+    const unsigned int me     = mpi::this_mpi_process(communicator());
+    const unsigned int nobody = mpi::n_mpi_processes(communicator());
+    const double reach        = 0.5 * mesh.smallest_edge();
+    const std::size_t n       = travellers.size();
 
-    const double              reach = 0.5 * mesh.smallest_edge();
-    std::vector<Location>     locations(n);
+    std::vector<Location> locations(n);
     std::vector<unsigned int> claims(n), owners(n);
-    for (unsigned int k = 0; k < n; ++k)
+    for (std::size_t k = 0; k < n; ++k)
       {
-        locations[k] = locate(positions[k], reach);
+        locations[k] = locate(travellers[k].position, reach);
         claims[k]    = locations[k].found ? me : nobody;
       }
     mpi::min(claims, communicator(), owners);
 
+    std::vector<bool> placed(n);
+    for (std::size_t k = 0; k < n; ++k)
+      {
+        placed[k] = owners[k] != nobody;
+        if (owners[k] == me)
+          handler.insert_particle(travellers[k].position,
+                                  locations[k].reference,
+                                  travellers[k].id,
+                                  locations[k].cell,
+                                  dealii::make_array_view(travellers[k].properties));
+      }
+    handler.update_cached_numbers();
+    return placed;
+  }
+
+  void ParticleStore::insert(const std::vector<dealii::Point<3>> &positions,
+                             const double sphere_radius,
+                             const dealii::Tensor<1, 3> &start_velocity)
+  {
     std::vector<double> properties(n_properties, 0.);
     properties[radius] = sphere_radius;
     put(&properties[velocity], start_velocity);
-    for (unsigned int k = 0; k < n; ++k)
-      {
-        if (owners[k] == nobody)
-          {
-            std::ostringstream text;
-            text << "no cell of the mesh holds the point (" << positions[k]
-                 << ") m where a particle was to be inserted; it must lie in the cylinder";
-            throw DemError(text.str());
-          }
-        if (owners[k] == me)
-          handler.insert_particle(positions[k],
-                                  locations[k].reference,
-                                  next_id + k,
-                                  locations[k].cell,
-                                  dealii::make_array_view(properties));
-      }
-    handler.update_cached_numbers();
-    next_id += n;
-    n_expected += n;
+
+    std::vector<Traveller> travellers;
+    for (const auto &position : positions)
+      travellers.push_back({ next_id++, position, properties });
+    const auto placed = place(travellers);
+    for (std::size_t k = 0; k < placed.size(); ++k)
+      if (!placed[k])
+        {
+          std::ostringstream text;
+          text << "no cell of the mesh holds the point (" << positions[k]
+               << ") m where a particle was to be inserted; it must lie in the cylinder";
+          throw DemError(text.str());
+        }
+    n_expected += positions.size();
     check_count();
   }
 
-  void
-  ParticleStore::migrate()
+  void ParticleStore::migrate()
   {
-    before.clear();
-    for (const auto &particle : handler)
-      before.emplace_back(particle.get_id(), particle.get_location());
+    strays.clear();
     handler.sort_particles_into_subdomains_and_cells();
+    bring_home_strays();
     check_count();
   }
 
-  void
-  ParticleStore::check_count() const
+  void ParticleStore::bring_home_strays()
+  {
+    // deal.II gives up a particle that lies, within rounding, on the face of two
+    // cells, or that went further than the cells next to its own.
+    namespace mpi = dealii::Utilities::MPI;
+    if (mpi::sum(static_cast<unsigned int>(strays.size()), communicator()) == 0)
+      return;
+
+    std::vector<Traveller> all;
+    for (const auto &of_rank : mpi::all_gather(communicator(), strays))
+      all.insert(all.end(), of_rank.begin(), of_rank.end());
+    const auto placed = place(all);
+    for (std::size_t k = 0; k < all.size(); ++k)
+      if (!placed[k])
+        {
+          std::ostringstream text;
+          text << "particle " << all[k].id << " was lost at (" << all[k].position
+               << ") m, outside of the cylinder; a smaller substep or a stiffer wall "
+                  "keeps it in";
+          throw DemError(text.str());
+        }
+  }
+
+  void ParticleStore::check_count() const
   {
     namespace mpi = dealii::Utilities::MPI;
     if (mpi::sum(static_cast<unsigned int>(handler.n_locally_owned_particles()),
@@ -143,31 +182,33 @@ namespace graupel
     std::vector<unsigned int> ids;
     for (const auto &particle : handler)
       ids.push_back(particle.get_id());
-    std::set<unsigned int> present;
+    std::vector<unsigned int> copies(next_id, 0);
     for (const auto &of_rank : mpi::all_gather(communicator(), ids))
-      present.insert(of_rank.begin(), of_rank.end());
+      for (const auto id : of_rank)
+        ++copies[id];
+    const auto culprit = std::find_if(copies.begin(),
+                                      copies.end(),
+                                      [](const unsigned int n) { return n != 1; }) -
+                         copies.begin();
 
     std::string message;
-    for (const auto &[id, place] : before)
-      if (message.empty() && present.count(id) == 0)
+    for (const auto &[id, position] : last_places)
+      if (id == culprit)
         {
           std::ostringstream text;
-          const double       rho = std::hypot(place[0], place[1]);
-          const Cylinder    &vessel = mesh.cylinder();
-          text << "particle " << id << " was lost; it was last at (" << place << ") m, "
-               << (2. * rho > vessel.diameter || place[2] < 0. || place[2] > vessel.height ?
-                     "outside of the cylinder: a smaller substep or a stiffer wall keeps it in" :
-                     "inside of the cylinder: it moved by more than one layer of cells between "
-                     "two migrations");
+          text
+              << "particle " << id << " was " << (copies[id] == 0 ? "lost" : "doubled")
+              << " on its way to another rank; it came from (" << position
+              << ") m. It moved too far between two migrations: try a smaller substep or "
+                 "larger cells";
           message = text.str();
         }
     throw_together(message, communicator());
-    throw DemError("particles were lost or doubled: " + std::to_string(present.size()) +
-                   " different ones instead of " + std::to_string(n_expected));
+    throw DemError("particles were lost: particle " + std::to_string(culprit) +
+                   " is missing");
   }
 
-  void
-  ParticleStore::gather(ParticleArrays &p, SpringTable &table)
+  void ParticleStore::gather(ParticleArrays &p, SpringTable &table)
   {
     const unsigned int n = handler.n_locally_owned_particles();
     p.n_owned            = n;
@@ -180,7 +221,7 @@ namespace graupel
       {
         if (!cell->is_locally_owned() || handler.n_particles_in_cell(cell) == 0)
           continue;
-        cells.push_back({cell, row, {}});
+        cells.push_back({ cell, row, {} });
         for (const auto &particle : handler.particles_in_cell(cell))
           {
             const auto properties = particle.get_properties();
@@ -199,14 +240,15 @@ namespace graupel
       }
   }
 
-  void
-  ParticleStore::scatter(const ParticleArrays &p, const SpringTable &table)
+  void ParticleStore::scatter(const ParticleArrays &p, const SpringTable &table)
   {
+    last_places.clear();
     unsigned int row = 0;
     for (const auto &cell_rows : cells)
       for (auto &particle : handler.particles_in_cell(cell_rows.cell))
         {
           const auto properties = particle.get_properties();
+          last_places.emplace_back(p.id[row], particle.get_location());
           particle.set_location(p.position[row]);
           properties[radius] = p.radius[row];
           put(&properties[velocity], p.velocity[row]);
@@ -219,8 +261,7 @@ namespace graupel
         }
   }
 
-  void
-  ParticleStore::visit_cells(const CellVisitor &visit) const
+  void ParticleStore::visit_cells(const CellVisitor &visit) const
   {
     for (const auto &cell_rows : cells)
       visit(cell_rows.cell, cell_rows.first_row, cell_rows.reference_locations);

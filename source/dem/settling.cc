@@ -20,31 +20,33 @@ namespace graupel
     constexpr double most_amplitude  = 4.;
   } // namespace
 
-  void
-  SettlingParameters::declare(dealii::ParameterHandler &prm)
+  void SettlingParameters::declare(dealii::ParameterHandler &prm)
   {
     prm.enter_subsection("Settling");
-    prm.add_parameter("kinetic energy",
-                      kinetic_energy,
-                      "Mean kinetic energy per particle below which the bed is at rest, if the "
-                      "speed is low as well [J].");
-    prm.add_parameter("speed",
-                      speed,
-                      "Speed of the fastest particle below which the bed is at rest, if the "
-                      "kinetic energy is low as well [m/s].");
-    prm.add_parameter("interval", interval, "Time between two looks at whether the bed rests [s].");
+    prm.add_parameter(
+        "kinetic energy",
+        kinetic_energy,
+        "Mean kinetic energy per particle below which the bed is at rest, if the "
+        "speed is low as well [J].");
+    prm.add_parameter(
+        "speed",
+        speed,
+        "Speed of the fastest particle below which the bed is at rest, if the "
+        "kinetic energy is low as well [m/s].");
+    prm.add_parameter(
+        "interval", interval, "Time between two looks at whether the bed rests [s].");
     prm.add_parameter("maximum time",
                       maximum_time,
                       "Simulated time after which settling is given up [s].");
-    prm.add_parameter("target void fraction",
-                      target_void_fraction,
-                      "Mean void fraction that a looser bed is brought to by tapping, before the "
-                      "friction of the flow returns; 0 to take the bed as it comes [-].");
+    prm.add_parameter(
+        "target void fraction",
+        target_void_fraction,
+        "Mean void fraction that a looser bed is brought to by tapping, before the "
+        "friction of the flow returns; 0 to take the bed as it comes [-].");
     prm.leave_subsection();
   }
 
-  void
-  SettlingParameters::check() const
+  void SettlingParameters::check() const
   {
     require(kinetic_energy > 0.,
             "Settling/kinetic energy",
@@ -56,24 +58,24 @@ namespace graupel
     require(maximum_time > interval,
             "Settling/maximum time",
             "choose a time longer than Settling/interval, in seconds");
-    require(target_void_fraction == 0. ||
-              (target_void_fraction >= 0.36 && target_void_fraction < 1.),
-            "Settling/target void fraction",
-            "equal spheres cannot be tapped into less than about 0.36; 0 takes the bed as it "
-            "comes");
+    require(
+        target_void_fraction == 0. ||
+            (target_void_fraction >= 0.36 && target_void_fraction < 1.),
+        "Settling/target void fraction",
+        "equal spheres cannot be tapped into less than about 0.36; 0 takes the bed as it "
+        "comes");
   }
 
   Settling::Settling(const SettlingParameters &parameters, Dem &dem)
-    : input(parameters)
-    , dem(dem)
-    , observables(dem.particles(), dem.cylinder(), dem.communicator())
-    , amplitude(first_amplitude)
+      : input(parameters)
+      , dem(dem)
+      , observables(dem.particles(), dem.cylinder(), dem.communicator())
+      , amplitude(first_amplitude)
   {
     dem.use_packing_materials(true);
   }
 
-  const char *
-  Settling::activity() const
+  const char *Settling::activity() const
   {
     switch (phase)
       {
@@ -89,16 +91,15 @@ namespace graupel
     return "";
   }
 
-  bool
-  Settling::at_rest()
+  bool Settling::at_rest()
   {
     dem.advance(input.interval);
     elapsed += input.interval;
-    return dem.maximum_speed() < input.speed && dem.mean_kinetic_energy() < input.kinetic_energy;
+    return dem.maximum_speed() < input.speed &&
+           dem.mean_kinetic_energy() < input.kinetic_energy;
   }
 
-  bool
-  Settling::step()
+  bool Settling::step()
   {
     switch (phase)
       {
@@ -120,8 +121,7 @@ namespace graupel
     return phase != Phase::settled;
   }
 
-  void
-  Settling::leave_packing()
+  void Settling::leave_packing()
   {
     const double before = void_fraction;
     void_fraction       = observables.bed().mean_void_fraction;
@@ -148,11 +148,11 @@ namespace graupel
     ++taps;
   }
 
-  void
-  Settling::tap()
+  void Settling::tap()
   {
-    const double g     = dem.parameters().particles.gravity;
-    const double phi   = 2. * dealii::numbers::PI * tap_frequency * (tap_time + 0.5 * tap_piece);
+    const double g = dem.parameters().particles.gravity;
+    const double phi =
+        2. * dealii::numbers::PI * tap_frequency * (tap_time + 0.5 * tap_piece);
     dem.set_gravity(g * (1. + amplitude * std::sin(phi)));
     dem.advance(tap_piece);
     elapsed += tap_piece;
@@ -164,8 +164,7 @@ namespace graupel
       }
   }
 
-  void
-  Settling::finish_if_too_late() const
+  void Settling::finish_if_too_late() const
   {
     if (elapsed < input.maximum_time || phase == Phase::settled)
       return;
@@ -177,8 +176,8 @@ namespace graupel
            << ". Allow more time, a higher target, or a lower packing friction.";
     else
       text << "mean kinetic energy " << dem.mean_kinetic_energy() << " J of "
-           << input.kinetic_energy << " J, fastest particle " << dem.maximum_speed() << " m/s of "
-           << input.speed << " m/s. Allow more time or higher limits.";
+           << input.kinetic_energy << " J, fastest particle " << dem.maximum_speed()
+           << " m/s of " << input.speed << " m/s. Allow more time or higher limits.";
     throw DemError(text.str());
   }
 } // namespace graupel

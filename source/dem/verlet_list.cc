@@ -12,36 +12,36 @@ namespace graupel
   } // namespace
 
   VerletList::VerletList(const double skin)
-    : skin(skin)
-  {}
+      : skin(skin)
+  {
+  }
 
-  void
-  VerletList::build(const ParticleArrays &particles, const std::vector<Wall> &walls)
+  void VerletList::build(const ParticleArrays &particles, const std::vector<Wall> &walls)
   {
     pairs.clear();
     wall_rows.assign(walls.size(), {});
     if (particles.n_owned == 0)
       return;
 
-    const double largest = *std::max_element(particles.radius.begin(), particles.radius.end());
+    const double largest =
+        *std::max_element(particles.radius.begin(), particles.radius.end());
     sort_into_bins(particles, 2. * largest + skin);
     find_pairs(particles);
 
     for (unsigned int w = 0; w < walls.size(); ++w)
       std::visit(
-        [&](const auto &surface) {
-          for (unsigned int i = 0; i < particles.n_owned; ++i)
-            if (surface.at(particles.position[i]).distance < particles.radius[i] + skin)
-              wall_rows[w].push_back(i);
-        },
-        walls[w].shape);
+          [&](const auto &surface) {
+            for (unsigned int i = 0; i < particles.n_owned; ++i)
+              if (surface.at(particles.position[i]).distance < particles.radius[i] + skin)
+                wall_rows[w].push_back(i);
+          },
+          walls[w].shape);
   }
 
-  void
-  VerletList::sort_into_bins(const ParticleArrays &particles, const double bin_size)
+  void VerletList::sort_into_bins(const ParticleArrays &particles, const double bin_size)
   {
     const unsigned int n = particles.n_rows();
-    dealii::Point<3>   low = particles.position[0], high = low;
+    dealii::Point<3> low = particles.position[0], high = low;
     for (const auto &x : particles.position)
       for (unsigned int d = 0; d < 3; ++d)
         {
@@ -50,8 +50,10 @@ namespace graupel
         }
 
     const auto extent = high - low;
-    double     size   = bin_size;
-    const auto count  = [&](const unsigned int d) { return 1. + std::floor(extent[d] / size); };
+    double size       = bin_size;
+    const auto count  = [&](const unsigned int d) {
+      return 1. + std::floor(extent[d] / size);
+    };
     while (count(0) * count(1) * count(2) > 64. + bins_per_particle * n)
       size *= 1.25;
     for (unsigned int d = 0; d < 3; ++d)
@@ -76,16 +78,15 @@ namespace graupel
       rows[next[bin_of_row[i]]++] = i;
   }
 
-  void
-  VerletList::find_pairs(const ParticleArrays &particles)
+  void VerletList::find_pairs(const ParticleArrays &particles)
   {
     // Both partners see each other; the lower row keeps the pair. Own rows come
     // before ghosts, so a pair of two ghosts never starts here.
     for (unsigned int i = 0; i < particles.n_owned; ++i)
       {
-        const int x = bin_of_row[i] % n_bins[0];
-        const int y = bin_of_row[i] / n_bins[0] % n_bins[1];
-        const int z = bin_of_row[i] / (n_bins[0] * n_bins[1]);
+        const int x       = bin_of_row[i] % n_bins[0];
+        const int y       = bin_of_row[i] / n_bins[0] % n_bins[1];
+        const int z       = bin_of_row[i] / (n_bins[0] * n_bins[1]);
         const int first_x = std::max(x - 1, 0), last_x = std::min(x + 1, n_bins[0] - 1);
 
         for (int c = std::max(z - 1, 0); c <= std::min(z + 1, n_bins[2] - 1); ++c)
@@ -93,7 +94,8 @@ namespace graupel
             {
               // Three bins in a row along x are contiguous.
               const int line = (c * n_bins[1] + b) * n_bins[0];
-              for (unsigned int k = begin[line + first_x]; k < begin[line + last_x + 1]; ++k)
+              for (unsigned int k = begin[line + first_x]; k < begin[line + last_x + 1];
+                   ++k)
                 {
                   const unsigned int j = rows[k];
                   if (j <= i)
@@ -103,9 +105,9 @@ namespace graupel
                       reach * reach)
                     continue;
                   if (particles.id[i] < particles.id[j])
-                    pairs.push_back({i, j});
+                    pairs.push_back({ i, j });
                   else
-                    pairs.push_back({j, i});
+                    pairs.push_back({ j, i });
                 }
             }
       }

@@ -298,6 +298,7 @@ TEST(NearestName, HasTheLeastEditDistance)
   const std::vector<std::string> known{ "abcd", "axcd", "kitten" };
   EXPECT_EQ(nearest_name("abcd", known), "abcd");
   EXPECT_EQ(nearest_name("acd", { "abxd", "axcd" }), "axcd"); // 1 against 2
+  EXPECT_EQ(nearest_name("abcd", { "wxyd", "ab" }), "ab");    // 2 against 3
   EXPECT_EQ(nearest_name("sitting", known), "kitten");
   EXPECT_EQ(nearest_name("", known), "abcd");
   EXPECT_EQ(nearest_name("anything", {}), "");

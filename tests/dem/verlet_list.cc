@@ -22,15 +22,15 @@ namespace
       std::uniform_real_distribution<double> unit(0., 1.);
       for (unsigned int i = 0; i < n; ++i)
         {
-          particles.id[i]     = (i * 37) % n;
-          particles.radius[i] = 0.5e-3 * (1. + 2. * unit(generator));
-          particles.position[i] =
-            dealii::Point<3>(0.02 * unit(generator) - 0.01, 0.02 * unit(generator) - 0.01, 0.04 * unit(generator));
+          particles.id[i]       = (i * 37) % n;
+          particles.radius[i]   = 0.5e-3 * (1. + 2. * unit(generator));
+          particles.position[i] = dealii::Point<3>(0.02 * unit(generator) - 0.01,
+                                                   0.02 * unit(generator) - 0.01,
+                                                   0.04 * unit(generator));
         }
     }
 
-    bool
-    near(const unsigned int i, const unsigned int j, const double beyond) const
+    bool near(const unsigned int i, const unsigned int j, const double beyond) const
     {
       return particles.position[i].distance(particles.position[j]) <
              particles.radius[i] + particles.radius[j] + beyond;
@@ -38,31 +38,29 @@ namespace
 
     using Pairs = std::set<std::pair<unsigned int, unsigned int>>;
 
-    Pairs
-    brute_force(const double beyond) const
+    Pairs brute_force(const double beyond) const
     {
       Pairs pairs;
       for (unsigned int i = 0; i < particles.n_rows(); ++i)
         for (unsigned int j = i + 1; j < particles.n_rows(); ++j)
           if (i < particles.n_owned && near(i, j, beyond))
-            pairs.insert(particles.id[i] < particles.id[j] ? std::make_pair(i, j) :
-                                                             std::make_pair(j, i));
+            pairs.insert(particles.id[i] < particles.id[j] ? std::make_pair(i, j)
+                                                           : std::make_pair(j, i));
       return pairs;
     }
 
-    static Pairs
-    as_set(const std::vector<NeighborPair> &list)
+    static Pairs as_set(const std::vector<NeighborPair> &list)
     {
       Pairs pairs;
       for (const auto &pair : list)
-        pairs.insert({pair.first, pair.second});
+        pairs.insert({ pair.first, pair.second });
       return pairs;
     }
 
-    std::mt19937            generator{7};
-    ParticleArrays          particles;
-    const double            skin  = 0.5e-3;
-    const std::vector<Wall> walls = vessel_walls({0.024, 0.042});
+    std::mt19937 generator{ 7 };
+    ParticleArrays particles;
+    const double skin             = 0.5e-3;
+    const std::vector<Wall> walls = vessel_walls({ 0.024, 0.042 });
   };
 
   // The list is the set of all pairs within the sum of radii plus skin, each
@@ -96,7 +94,7 @@ namespace
         for (auto &x : particles.position)
           {
             dealii::Tensor<1, 3> direction(
-              {normal(generator), normal(generator), normal(generator)});
+                { normal(generator), normal(generator), normal(generator) });
             x += 0.499 * skin / direction.norm() * direction;
           }
         const auto listed = as_set(list.pairs);

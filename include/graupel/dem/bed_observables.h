@@ -8,7 +8,8 @@
 
 namespace graupel
 {
-  /** Volume of the part of a sphere below a plane that is @p height above its lowest point [m^3]. */
+  /** Volume of the part of a sphere below a plane that is @p height above its lowest
+   * point [m^3]. */
   double sphere_volume_below(const double radius, const double height);
 
   /**
@@ -20,8 +21,8 @@ namespace graupel
   public:
     /** Both must outlive this object. The particles may move and change. */
     BedObservables(const ParticleArrays &particles,
-                   const Cylinder       &cylinder,
-                   MPI_Comm              communicator);
+                   const Cylinder &cylinder,
+                   MPI_Comm communicator);
 
     /**
      * Volume of solid below each of the planes z = @p planes [m^3], spheres cut
@@ -47,14 +48,17 @@ namespace graupel
       double height = 0.;
       /** Solid fraction over the middle half of the bed [-]. */
       double bulk_solid_fraction = 0.;
-      /** 1 - solid volume / (cross-section * height) [-]; 1 without a bed. */
+      /**
+       * 1 - solid volume / (cross-section * height) [-]; 1 without a bed. Of
+       * all solid, so it means nothing while particles still rain.
+       */
       double mean_void_fraction = 1.;
     };
 
     /**
      * Finds the bed. The top is the lowest place above the middle of the solid
      * that meets the definition, so that particles that fall from above do not
-     * count. Collective.
+     * raise it. Collective.
      */
     Bed bed() const;
 
@@ -67,8 +71,8 @@ namespace graupel
     double largest_radius() const;
 
     const ParticleArrays &particles;
-    const Cylinder       &cylinder;
-    MPI_Comm              communicator;
+    const Cylinder &cylinder;
+    MPI_Comm communicator;
   };
 } // namespace graupel
 

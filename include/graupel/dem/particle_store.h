@@ -27,9 +27,10 @@ namespace graupel
   {
   public:
     using CellIterator = dealii::Triangulation<3>::active_cell_iterator;
-    using CellVisitor  = std::function<void(const CellIterator                  &cell,
-                                           const unsigned int                   first_row,
-                                           const std::vector<dealii::Point<3>> &reference_locations)>;
+    using CellVisitor =
+        std::function<void(const CellIterator &cell,
+                           const unsigned int first_row,
+                           const std::vector<dealii::Point<3>> &reference_locations)>;
 
     /** @p density: of all particles [kg/m^3]. @p mesh must outlive the store. */
     ParticleStore(const CylinderMesh &mesh, const double density);
@@ -42,12 +43,14 @@ namespace graupel
      * DemError for a point outside the mesh.
      */
     void insert(const std::vector<dealii::Point<3>> &positions,
-                const double                         radius,
-                const dealii::Tensor<1, 3>          &velocity);
+                const double radius,
+                const dealii::Tensor<1, 3> &velocity);
 
     /**
      * Finds the cell and rank of every particle and moves it there. Collective.
      * Throws DemError, with number, last place and reason, for a lost particle.
+     * What deal.II gives up (a particle exactly on a face; a long way within one
+     * migration) is searched for in all cells of all ranks.
      */
     void migrate();
 
@@ -68,14 +71,12 @@ namespace graupel
     void visit_cells(const CellVisitor &visit) const;
 
     /** Particles on all ranks. */
-    unsigned int
-    n_global() const
+    unsigned int n_global() const
     {
       return n_expected;
     }
 
-    MPI_Comm
-    communicator() const
+    MPI_Comm communicator() const
     {
       return mesh.communicator();
     }
@@ -83,34 +84,54 @@ namespace graupel
   private:
     struct Location
     {
-      CellIterator     cell;
+      CellIterator cell;
       dealii::Point<3> reference;
-      bool             found = false;
+      bool found = false;
+    };
+
+    // A particle on its way into a cell, with all that it has.
+    struct Traveller
+    {
+      unsigned int id;
+      dealii::Point<3> position;
+      std::vector<double> properties;
+
+      template <class Archive>
+      void serialize(Archive &archive, const unsigned int)
+      {
+        archive &id &position &properties;
+      }
     };
 
     // Looks in own cells within reach of the point.
     Location locate(const dealii::Point<3> &point, const double reach) const;
-    void     check_count() const;
+    // Puts each traveller, the same on all ranks, into a cell of the lowest rank
+    // that has one for it; tells which ones found a cell. Collective.
+    std::vector<bool> place(const std::vector<Traveller> &travellers);
+    void bring_home_strays();
+    void check_count() const;
 
     struct CellRows
     {
-      CellIterator                  cell;
-      unsigned int                  first_row;
+      CellIterator cell;
+      unsigned int first_row;
       std::vector<dealii::Point<3>> reference_locations;
     };
 
-    const CylinderMesh                    &mesh;
-    const double                           density;
-    dealii::GridTools::Cache<3>            cache;
+    const CylinderMesh &mesh;
+    const double density;
+    dealii::GridTools::Cache<3> cache;
     dealii::Particles::ParticleHandler<3> handler;
-    std::vector<CellRows>                  cells;
+    std::vector<CellRows> cells;
 
     // What all ranks together must hold, and the next id to give away.
     unsigned int n_expected = 0;
     unsigned int next_id    = 0;
 
-    // Last known places by id, kept through migrate() to name a lost particle.
-    std::vector<std::pair<unsigned int, dealii::Point<3>>> before;
+    // What deal.II gave up in the present migration, and where each particle was
+    // before, to name one that is lost.
+    std::vector<Traveller> strays;
+    std::vector<std::pair<unsigned int, dealii::Point<3>>> last_places;
   };
 } // namespace graupel
 

@@ -10,9 +10,9 @@ namespace graupel
   struct SettlingParameters
   {
     /** Mean kinetic energy per particle below which the bed is at rest [J]. */
-    double kinetic_energy = 1e-11;
+    double kinetic_energy = 1e-12;
     /** Speed of the fastest particle below which the bed is at rest [m/s]. */
-    double speed = 5e-3;
+    double speed = 2e-3;
     /** Time between two looks at the bed [s]. */
     double interval = 5e-3;
     /** Simulated time after which settling is given up [s]. */
@@ -45,15 +45,13 @@ namespace graupel
     bool step();
 
     /** Time since the beginning of the phase [s]. */
-    double
-    time() const
+    double time() const
     {
       return elapsed;
     }
 
     /** Taps so far. */
-    unsigned int
-    n_taps() const
+    unsigned int n_taps() const
     {
       return taps;
     }
@@ -76,15 +74,15 @@ namespace graupel
     void finish_if_too_late() const;
 
     const SettlingParameters input;
-    Dem                     &dem;
-    const BedObservables     observables;
+    Dem &dem;
+    const BedObservables observables;
 
-    Phase        phase     = Phase::packing;
-    double       elapsed   = 0.;
-    unsigned int taps      = 0;
-    double       tap_time  = 0.;
-    double       amplitude;
-    double       void_fraction = 1.;
+    Phase phase       = Phase::packing;
+    double elapsed    = 0.;
+    unsigned int taps = 0;
+    double tap_time   = 0.;
+    double amplitude;
+    double void_fraction = 1.;
   };
 } // namespace graupel
 
