@@ -2,45 +2,39 @@
 
 #include <deal.II/dofs/dof_tools.h>
 #include <deal.II/fe/fe_values.h>
-#include <deal.II/lac/solver_cg.h>
 #include <deal.II/lac/trilinos_sparsity_pattern.h>
+
+#include <boost/math/special_functions/bessel.hpp>
 
 namespace graupel
 {
   namespace
   {
-    // The exchange of momentum is exact to this accuracy; round-off lies two
-    // digits below.
-    constexpr double tolerance = 1e-14;
-
-    dealii::FullMatrix<double>
-    local_matrix(const dealii::FEValues<3> &values, const double length)
-    {
-      const unsigned int         n = values.dofs_per_cell;
-      dealii::FullMatrix<double> local(n, n);
-      for (const unsigned int q : values.quadrature_point_indices())
-        for (unsigned int a = 0; a < n; ++a)
-          {
-            local(a, a) += values.shape_value(a, q) * values.JxW(q);
-            for (unsigned int b = 0; b < n; ++b)
-              local(a, b) += length * length * values.shape_grad(a, q) *
-                             values.shape_grad(b, q) * values.JxW(q);
-          }
-      return local;
-    }
+    // Where the Chebyshev series of the exponential is cut.
+    constexpr double cut = 1e-6;
+    // Half of l^2 times the largest eigenvalue up to which one polynomial serves;
+    // beyond it Bessel functions come near the end of double precision.
+    constexpr double largest_exponent = 200.;
   } // namespace
 
   Filter::Filter(const NodalSpace &nodes, const double length)
     : nodes(nodes)
-    , length(length)
-    , total_volume(0.)
+    , coefficients(1, 1.)
   {
-    for (unsigned int k = 0; k < nodes.measure().locally_owned_size(); ++k)
-      total_volume += nodes.measure().local_element(k);
-    total_volume = dealii::Utilities::MPI::sum(total_volume, nodes.mesh.communicator());
-    if (length == 0.)
-      return;
+    nodes.initialize(inverse_measure);
+    for (unsigned int k = 0; k < inverse_measure.locally_owned_size(); ++k)
+      if (const double measure = nodes.measure().local_element(k); measure > 0.)
+        inverse_measure.local_element(k) = 1. / measure;
+    if (length > 0.)
+      {
+        assemble();
+        find_polynomial(length);
+      }
+  }
 
+  void
+  Filter::assemble()
+  {
     dealii::TrilinosWrappers::SparsityPattern pattern(nodes.owned,
                                                       nodes.owned,
                                                       nodes.relevant,
@@ -50,69 +44,106 @@ namespace graupel
                                             nodes.hanging_nodes,
                                             false);
     pattern.compress();
-    matrix.reinit(pattern);
+    stiffness.reinit(pattern);
 
-    dealii::FEValues<3> values(nodes.mesh.mapping(),
+    dealii::FEValues<3>        values(nodes.mesh.mapping(),
                                nodes.fe,
                                nodes.quadrature,
-                               dealii::update_values | dealii::update_gradients |
-                                 dealii::update_JxW_values);
-    std::vector<dealii::types::global_dof_index> indices(nodes.fe.n_dofs_per_cell());
+                               dealii::update_gradients | dealii::update_JxW_values);
+    const unsigned int         n = nodes.fe.n_dofs_per_cell();
+    dealii::FullMatrix<double> local(n, n);
+    std::vector<dealii::types::global_dof_index> indices(n);
     for (const auto &cell : nodes.dof_handler.active_cell_iterators())
       if (cell->is_locally_owned())
         {
           values.reinit(cell);
+          local = 0.;
+          for (const unsigned int q : values.quadrature_point_indices())
+            for (unsigned int a = 0; a < n; ++a)
+              for (unsigned int b = 0; b < n; ++b)
+                local(a, b) +=
+                  values.shape_grad(a, q) * values.shape_grad(b, q) * values.JxW(q);
           cell->get_dof_indices(indices);
-          nodes.hanging_nodes.distribute_local_to_global(local_matrix(values, length),
-                                                         indices,
-                                                         matrix);
+          nodes.hanging_nodes.distribute_local_to_global(local, indices, stiffness);
         }
-    matrix.compress(dealii::VectorOperation::add);
-    preconditioner.initialize(matrix);
+    stiffness.compress(dealii::VectorOperation::add);
+
+    // Gershgorin's bound on the eigenvalues of M^-1 K.
+    for (const auto row : nodes.owned)
+      {
+        double sum = 0.;
+        for (auto entry = stiffness.begin(row); entry != stiffness.end(row); ++entry)
+          sum += std::abs(entry->value());
+        largest_eigenvalue = std::max(largest_eigenvalue, sum * inverse_measure(row));
+      }
+    largest_eigenvalue =
+      dealii::Utilities::MPI::max(largest_eigenvalue, nodes.mesh.communicator());
+  }
+
+  void
+  Filter::find_polynomial(const double length)
+  {
+    const double half = 0.5 * length * length * largest_eigenvalue;
+    repetitions       = static_cast<unsigned int>(std::ceil(half / largest_exponent));
+    // exp(-a (x + 1)) = e^-a (I_0(a) + 2 sum (-1)^k I_k(a) T_k(x)), with x from -1 to 1
+    const double a = half / repetitions;
+    coefficients.clear();
+    for (unsigned int k = 0; k < 2 || std::abs(coefficients.back()) > cut; ++k)
+      coefficients.push_back((k == 0 ? 1. : 2.) * (k % 2 == 0 ? 1. : -1.) * std::exp(-a) *
+                             boost::math::cyl_bessel_i(k, a));
+    // Constants, x = -1, must stay to the last digit in spite of the cut.
+    double at_zero = 0.;
+    for (unsigned int k = 0; k < coefficients.size(); ++k)
+      at_zero += (k % 2 == 0 ? 1. : -1.) * coefficients[k];
+    for (double &coefficient : coefficients)
+      coefficient /= at_zero;
+  }
+
+  void
+  Filter::shifted_product(NodalVector &y, const NodalVector &x) const
+  {
+    // (2 / lambda_max M^-1 K - 1) x
+    stiffness.vmult(y, x);
+    y.scale(inverse_measure);
+    y.sadd(2. / largest_eigenvalue, -1., x);
+  }
+
+  void
+  Filter::apply_once(NodalVector &x) const
+  {
+    NodalVector before(x), now(x), next(x);
+    shifted_product(now, before);
+    x *= coefficients[0];
+    x.add(coefficients[1], now);
+    for (unsigned int k = 2; k < coefficients.size(); ++k)
+      {
+        shifted_product(next, now);
+        next.sadd(2., -1., before);
+        x.add(coefficients[k], next);
+        before.swap(now);
+        now.swap(next);
+      }
   }
 
   void
   Filter::spread(NodalVector &x, const NodalVector &b) const
   {
     x.zero_out_ghost_values();
-    const double size = b.l2_norm();
-    if (size == 0.)
-      x = 0.;
-    else if (length == 0.)
-      for (unsigned int k = 0; k < x.locally_owned_size(); ++k)
-        x.local_element(k) = b.local_element(k) / nodes.measure().local_element(k);
-    else
-      {
-        dealii::SolverControl         control(1000, tolerance * size);
-        dealii::SolverCG<NodalVector> solver(control);
-        try
-          {
-            solver.solve(matrix, x, b, preconditioner);
-          }
-        catch (const dealii::SolverControl::NoConvergence &)
-          {
-            throw std::runtime_error(
-              "The filter of the coupling did not converge. Is \"Coupling/filter length\" "
-              "far larger than the vessel?");
-          }
-        // What the iteration left of the total: a constant, which A maps to the
-        // same constant times M, makes it good.
-        NodalVector rest(b);
-        matrix.vmult(rest, x);
-        rest.sadd(-1., 1., b);
-        x.add(rest.mean_value() * rest.size() / total_volume);
-      }
-    nodes.hanging_nodes.distribute(x);
-    x.update_ghost_values();
+    x.equ(1., b);
+    x.scale(inverse_measure);
+    smooth(x, x);
   }
 
   void
   Filter::smooth(NodalVector &x, const NodalVector &f) const
   {
-    NodalVector b;
-    nodes.initialize(b);
-    for (unsigned int k = 0; k < b.locally_owned_size(); ++k)
-      b.local_element(k) = nodes.measure().local_element(k) * f.local_element(k);
-    spread(x, b);
+    x.zero_out_ghost_values();
+    if (&x != &f)
+      x.equ(1., f);
+    if (coefficients.size() > 1)
+      for (unsigned int i = 0; i < repetitions; ++i)
+        apply_once(x);
+    nodes.hanging_nodes.distribute(x);
+    x.update_ghost_values();
   }
 } // namespace graupel

@@ -8,8 +8,6 @@
 #include <deal.II/numerics/vector_tools_boundary.h>
 #include <deal.II/numerics/vector_tools_constraints.h>
 
-#include <sstream>
-
 namespace graupel
 {
   namespace
@@ -171,10 +169,7 @@ namespace graupel
     const bool stale = last_iterations > 1.5 * fresh_iterations + 5. ||
                        std::abs(scheme.now - preconditioned_rate) > 0.2 * scheme.now;
     if (stale)
-      {
-        preconditioner.refresh(matrix, schur);
-        preconditioned_rate = scheme.now;
-      }
+      refresh_preconditioner();
     double tolerance = std::max(parameters.linear_tolerance * rhs.l2_norm(),
                                 std::numeric_limits<double>::min());
     last_iterations  = solve_to(tolerance);
@@ -190,29 +185,54 @@ namespace graupel
     return last_iterations;
   }
 
+  void
+  FlowSolver::refresh_preconditioner()
+  {
+    preconditioner.refresh(matrix, schur);
+    preconditioned_rate = scheme.now;
+  }
+
   unsigned int
   FlowSolver::solve_to(const double tolerance)
   {
-    dealii::SolverControl control(parameters.maximum_iterations, tolerance);
+    constraints.set_zero(solution);
+    solution.zero_out_ghost_values();
+    // A preconditioner of an earlier step may not serve any more: give up early
+    // with it, and only then with a fresh one.
+    const unsigned int patience =
+      std::min(parameters.maximum_iterations, std::max(50u, 3 * fresh_iterations));
+    unsigned int iterations = iterate(tolerance, patience);
+    if (iterations == dealii::numbers::invalid_unsigned_int)
+      {
+        refresh_preconditioner();
+        iterations = iterate(tolerance, parameters.maximum_iterations);
+        if (iterations == dealii::numbers::invalid_unsigned_int)
+          throw std::runtime_error(
+            "The linear solver of the flow did not reach its tolerance within " +
+            std::to_string(parameters.maximum_iterations) +
+            " iterations. Try a smaller Flow/time step, or more \"Flow solver/maximum "
+            "iterations\".");
+        iterations += patience;
+      }
+    constraints.distribute(solution);
+    solution.update_ghost_values();
+    return iterations;
+  }
+
+  unsigned int
+  FlowSolver::iterate(const double tolerance, const unsigned int maximum)
+  {
+    dealii::SolverControl             control(maximum, tolerance, false, false);
     dealii::SolverFGMRES<BlockVector> solver(
       control, dealii::SolverFGMRES<BlockVector>::AdditionalData(100));
-    solution.zero_out_ghost_values();
-    constraints.set_zero(solution);
     try
       {
         solver.solve(matrix, solution, rhs, preconditioner);
       }
-    catch (const dealii::SolverControl::NoConvergence &failure)
+    catch (const dealii::SolverControl::NoConvergence &)
       {
-        std::ostringstream message;
-        message << "The linear solver of the flow did not reach its tolerance: residual "
-                << failure.last_residual << " after " << failure.last_step
-                << " iterations, wanted " << tolerance
-                << ". Try a smaller time step, or more \"Flow solver/maximum iterations\".";
-        throw std::runtime_error(message.str());
+        return dealii::numbers::invalid_unsigned_int;
       }
-    constraints.distribute(solution);
-    solution.update_ghost_values();
     return control.last_step();
   }
 

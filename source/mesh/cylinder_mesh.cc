@@ -12,21 +12,56 @@ namespace graupel
   {
     constexpr dealii::types::manifold_id curved = 0;
 
-    // Cells across the diameter of hyper_ball_balanced, before refinement. Its
-    // twelve cells stay compact (scaled Jacobian 0.84 after extrusion), where
-    // GridGenerator::cylinder has cells of aspect ratio 11.
-    constexpr double coarse_cells_across = 4.;
+    // A disc of a few cells, and how many of them lie across its diameter; after
+    // extrusion their cells stay compact, where GridGenerator::cylinder has
+    // cells of aspect ratio 11. Two kinds, so that the sizes that refinement can
+    // reach lie closer together than a factor of two.
+    struct CoarseDisc
+    {
+      double       cells_across;
+      unsigned int refinements;
+
+      void
+      make(dealii::Triangulation<2> &disc, const double radius) const
+      {
+        if (cells_across == 4.)
+          dealii::GridGenerator::hyper_ball_balanced(disc, dealii::Point<2>(), radius);
+        else
+          dealii::GridGenerator::hyper_ball(disc, dealii::Point<2>(), radius);
+      }
+
+      double
+      cell_size(const double diameter) const
+      {
+        return diameter / (cells_across * (1u << refinements));
+      }
+    };
+
+    CoarseDisc
+    disc_for(const double diameter, const double wanted_size)
+    {
+      CoarseDisc best{4., 0};
+      const auto misfit = [&](const CoarseDisc &disc) {
+        return std::abs(std::log(disc.cell_size(diameter) / wanted_size));
+      };
+      for (const double cells_across : {4., 3.})
+        for (unsigned int refinements = 0; refinements <= 9; ++refinements)
+          if (const CoarseDisc disc{cells_across, refinements}; misfit(disc) < misfit(best))
+            best = disc;
+      return best;
+    }
 
     // The coarse cylinder: boundary ids set, curved on the lateral faces alone.
     // Manifold ids are set by hand, since set_all_manifold_ids_on_boundary would
     // take lines of the end caps along and invert cells.
     void
     make_coarse_cylinder(const Cylinder             &cylinder,
+                         const CoarseDisc           &coarse,
                          const unsigned int          layers,
                          dealii::Triangulation<3>   &solid)
     {
       dealii::Triangulation<2> disc;
-      dealii::GridGenerator::hyper_ball_balanced(disc, dealii::Point<2>(), cylinder.diameter / 2.);
+      coarse.make(disc, cylinder.diameter / 2.);
       disc.set_all_manifold_ids(dealii::numbers::flat_manifold_id);
       dealii::GridGenerator::extrude_triangulation(disc, layers + 1, cylinder.height, solid);
       solid.set_all_manifold_ids(dealii::numbers::flat_manifold_id);
@@ -60,17 +95,17 @@ namespace graupel
              dealii::parallel::distributed::Triangulation<3>::default_setting)
     , quadratic(2)
   {
-    const double coarse_size = cylinder.diameter / coarse_cells_across;
-    const auto   refinements = static_cast<unsigned int>(
-      std::max(0l, std::lround(std::log2(coarse_size / parameters.cell_size))));
+    const CoarseDisc disc = disc_for(cylinder.diameter, parameters.cell_size);
+    const double height =
+      parameters.cell_height > 0. ? parameters.cell_height : parameters.cell_size;
     const auto layers = static_cast<unsigned int>(
-      std::max(1l, std::lround(cylinder.height / (parameters.cell_size * (1u << refinements)))));
+      std::max(1l, std::lround(cylinder.height / (height * (1u << disc.refinements)))));
 
     dealii::Triangulation<3> solid;
-    make_coarse_cylinder(cylinder, layers, solid);
+    make_coarse_cylinder(cylinder, disc, layers, solid);
     forest.copy_triangulation(solid);
     forest.set_manifold(curved, dealii::CylindricalManifold<3>(2));
-    forest.refine_global(refinements);
+    forest.refine_global(disc.refinements);
   }
 
   double

@@ -13,7 +13,7 @@ namespace graupel
   /** How particles and fluid feel each other, beside the drag law. */
   struct CouplingParameters
   {
-    /** A length [m], or "auto": the diameter of a simulated particle. */
+    /** A length [m], or "auto": 0.75 diameters of a simulated particle. */
     std::string filter_length = "auto";
 
     /** Declares its entry in the section "Coupling". */
@@ -26,12 +26,12 @@ namespace graupel
 
   /**
    * The traffic between particles and fluid, in both directions by one operator
-   * pair: a number of a particle is spread over the nodes by A^-1 W^T, a field
+   * pair: a number of a particle is spread over the nodes by S M^-1 W^T, a field
    * of the nodes is felt by a particle as W S f (see Filter, ParticleTransfer).
    * As S is self-adjoint, what the particles receive is what the fluid loses, to
-   * the accuracy of the filter.
+   * round-off.
    *
-   *   alpha = 1 - A^-1 W^T V,  B = A^-1 W^T beta,  C = A^-1 W^T (beta v)
+   *   alpha = 1 - S M^-1 W^T V,  B = S M^-1 W^T beta,  C = S M^-1 W^T (beta v)
    *   F_p = beta_p ((W S u)_p - v_p) - V_p (W S grad p)_p + V_p rho g
    *
    * The last term is buoyancy, as p is the pressure without its hydrostatic part.

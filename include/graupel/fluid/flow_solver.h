@@ -97,8 +97,11 @@ namespace graupel
     void         assemble(const Medium &medium);
     void         add_nodal_drag(const Medium &medium);
     void         assemble_schur(const Medium &medium);
-    unsigned int solve(const double mass_scale);
+    unsigned int solve(const double inflow);
     unsigned int solve_to(const double tolerance);
+    // Iterations, or invalid_unsigned_int after @p maximum of them.
+    unsigned int iterate(const double tolerance, const unsigned int maximum);
+    void         refresh_preconditioner();
     double       mass_error() const;
     void         publish();
 

@@ -26,8 +26,10 @@ namespace graupel
   /** How finely the cylinder is cut into hexahedra. */
   struct MeshParameters
   {
-    /** Aimed-at edge length of a cell along the axis and across [m]. */
+    /** Aimed-at edge length of a cell across the vessel [m]. */
     double cell_size = 3.2e-3;
+    /** Aimed-at height of a cell [m]; 0: as across. */
+    double cell_height = 0.;
 
     void declare(dealii::ParameterHandler &prm);
     void check(const Cylinder &cylinder) const;
