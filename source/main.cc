@@ -35,15 +35,18 @@ namespace
   {
     app.set_version_flag("--version", "graupel " GRAUPEL_VERSION);
     app.add_option("FILE", options.file, "Parameter file (.prm); examples are in prm/");
-    app.add_flag("--check",
-                 options.check,
-                 "Read the parameters, look for contradictions, print dimensionless groups and "
-                 "step sizes, and stop");
-    app.add_flag("--print-parameters",
-                 options.print_parameters,
-                 "Print every parameter with its explanation and value (the default without "
-                 "FILE), and stop");
-    app.add_option("--set", options.overrides, "Override a value: \"Section/name=value\"")
+    app.add_flag(
+      "--check",
+      options.check,
+      "Read the parameters, look for contradictions, print dimensionless groups and "
+      "step sizes, and stop");
+    app.add_flag(
+      "--print-parameters",
+      options.print_parameters,
+      "Print every parameter with its explanation and value (the default without "
+      "FILE), and stop");
+    app
+      .add_option("--set", options.overrides, "Override a value: \"Section/name=value\"")
       ->take_all()
       ->allow_extra_args(false);
     app.add_option("--output", options.output, "Directory of the results");
@@ -56,7 +59,7 @@ namespace
   Outcome
   run(const Options &options, std::string &directory, bool &report)
   {
-    RunParameters             parameters;
+    RunParameters            parameters;
     dealii::ParameterHandler prm;
     parameters.declare(prm);
     ParameterFile file(prm);
@@ -80,13 +83,15 @@ namespace
         if (options.check)
           {
             if (is_first_rank())
-              std::cout << parameters.describe() << "No contradictions found." << std::endl;
+              std::cout << parameters.describe() << "No contradictions found."
+                        << std::endl;
             return Outcome::told;
           }
         ResultFiles files(parameters.output.directory, MPI_COMM_WORLD);
         files.write_parameters(prm);
-        Progress progress =
-          is_first_rank() ? Progress(std::cout, stdout_is_terminal(), &files.log()) : Progress();
+        Progress progress = is_first_rank()
+                              ? Progress(std::cout, stdout_is_terminal(), &files.log())
+                              : Progress();
         PackedBed(parameters, options.file, files, progress, MPI_COMM_WORLD).run();
         directory = parameters.output.directory;
         report    = parameters.output.report;
@@ -110,10 +115,11 @@ main(int argc, char **argv)
     dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
     first = is_first_rank();
 
-    CLI::App app("Graupel: gas or liquid flowing through beds of spheres, CFD-DEM with scaled "
-                 "particles.",
-                 "graupel");
-    Options  options;
+    CLI::App app(
+      "Graupel: gas or liquid flowing through beds of spheres, CFD-DEM with scaled "
+      "particles.",
+      "graupel");
+    Options options;
     add_options(app, options);
     try
       {

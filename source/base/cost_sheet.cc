@@ -6,7 +6,14 @@ namespace graupel
   section_name(const CostSheet::Section section)
   {
     static constexpr std::array<const char *, CostSheet::n_sections> names{
-      {"contact", "neighbor", "halo", "void_fraction", "exchange", "fluid", "mesh", "output"}};
+      {"contact",
+       "neighbor",
+       "halo",
+       "void_fraction",
+       "exchange",
+       "fluid",
+       "mesh",
+       "output"}};
     return names[section];
   }
 } // namespace graupel

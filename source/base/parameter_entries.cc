@@ -10,29 +10,31 @@ namespace graupel
   namespace
   {
     // An entry is a node with a pattern; every other node is a section.
-    void collect(const nlohmann::json &node,
-                 const std::string &path,
-                 std::vector<ParameterEntry> &entries)
+    void
+    collect(const nlohmann::json        &node,
+            const std::string           &path,
+            std::vector<ParameterEntry> &entries)
     {
       for (const auto &[name, child] : node.items())
         {
           if (!child.is_object())
             continue;
           const std::string child_path = path.empty() ? name : path + "/" + name;
-          const auto pattern           = child.find("pattern_description");
+          const auto        pattern    = child.find("pattern_description");
           if (pattern != child.end() && pattern->is_string())
-            entries.push_back({ child_path,
-                                child.at("documentation").get<std::string>(),
-                                pattern->get<std::string>() });
+            entries.push_back({child_path,
+                               child.at("documentation").get<std::string>(),
+                               pattern->get<std::string>()});
           else
             collect(child, child_path, entries);
         }
     }
 
     // deal.II writes limits of the type where there is no limit.
-    std::string with_limits(const std::string &kind,
-                            const std::string &least,
-                            const std::string &most)
+    std::string
+    with_limits(const std::string &kind,
+                const std::string &least,
+                const std::string &most)
     {
       const bool bounded_below = least != "-MAX_DOUBLE" && least != "-2147483648";
       const bool bounded_above = most != "MAX_DOUBLE" && most != "2147483647";
@@ -46,7 +48,8 @@ namespace graupel
     }
   } // namespace
 
-  std::vector<ParameterEntry> parameter_entries(const dealii::ParameterHandler &handler)
+  std::vector<ParameterEntry>
+  parameter_entries(const dealii::ParameterHandler &handler)
   {
     std::stringstream text;
     handler.print_parameters(text, dealii::ParameterHandler::JSON);
@@ -54,13 +57,14 @@ namespace graupel
     std::vector<ParameterEntry> entries;
     collect(nlohmann::json::parse(text), "", entries);
     std::sort(
-        entries.begin(),
-        entries.end(),
-        [](const ParameterEntry &a, const ParameterEntry &b) { return a.path < b.path; });
+      entries.begin(),
+      entries.end(),
+      [](const ParameterEntry &a, const ParameterEntry &b) { return a.path < b.path; });
     return entries;
   }
 
-  std::string expected_by(const std::string &pattern)
+  std::string
+  expected_by(const std::string &pattern)
   {
     static const std::regex real(R"(\[Double (\S+)\.\.\.(\S+) \(inclusive\)\])");
     static const std::regex whole(R"(\[Integer range (\S+)\.\.\.(\S+) \(inclusive\)\])");
@@ -90,7 +94,7 @@ namespace graupel
     if (std::regex_match(pattern, found, list))
       {
         const std::string element = expected_by(found[1]);
-        std::string mark          = ",";
+        std::string       mark    = ",";
         if (std::regex_match(pattern, found, separator))
           mark = found[1];
         return "a list separated by \"" + mark + "\", each element " + element;
@@ -98,7 +102,8 @@ namespace graupel
     return pattern;
   }
 
-  std::vector<std::string> entries_without_unit(const dealii::ParameterHandler &handler)
+  std::vector<std::string>
+  entries_without_unit(const dealii::ParameterHandler &handler)
   {
     static const std::regex unit(R"([\s\S]*\[[^\]\s][^\]]*\]\.?\s*)");
 

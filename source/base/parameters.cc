@@ -12,41 +12,46 @@ namespace graupel
   namespace
   {
     // Something is wrong with the text itself; there is no value to explain.
-    [[noreturn]] void refuse(const std::string &origin, const std::string &reason)
+    [[noreturn]] void
+    refuse(const std::string &origin, const std::string &reason)
     {
       throw InputError("", origin + ": " + reason);
     }
 
-    std::string in_quotes(const std::string &text)
+    std::string
+    in_quotes(const std::string &text)
     {
       return '"' + text + '"';
     }
 
-    std::string trimmed(const std::string &text)
+    std::string
+    trimmed(const std::string &text)
     {
       const char *const blanks = " \t\r\n";
-      const auto first         = text.find_first_not_of(blanks);
+      const auto        first  = text.find_first_not_of(blanks);
       if (first == std::string::npos)
         return "";
       return text.substr(first, text.find_last_not_of(blanks) - first + 1);
     }
 
     // "A/B/name" as the sections {A, B} and the name.
-    std::pair<std::vector<std::string>, std::string> split_path(const std::string &path)
+    std::pair<std::vector<std::string>, std::string>
+    split_path(const std::string &path)
     {
       std::vector<std::string> sections;
-      std::size_t begin = 0;
+      std::size_t              begin = 0;
       for (std::size_t slash; (slash = path.find('/', begin)) != std::string::npos;
            begin = slash + 1)
         sections.push_back(path.substr(begin, slash - begin));
-      return { sections, path.substr(begin) };
+      return {sections, path.substr(begin)};
     }
 
     // Joins continued lines and drops the comment; false at the end of the text.
-    bool next_statement(std::istream &stream,
-                        std::string &statement,
-                        unsigned int &first_line,
-                        unsigned int &lines_read)
+    bool
+    next_statement(std::istream &stream,
+                   std::string  &statement,
+                   unsigned int &first_line,
+                   unsigned int &lines_read)
     {
       statement.clear();
       first_line = lines_read + 1;
@@ -59,9 +64,9 @@ namespace graupel
           if (continued)
             line.pop_back();
           statement +=
-              lines_read == first_line
-                  ? line
-                  : line.substr(std::min(line.find_first_not_of(" \t"), line.size()));
+            lines_read == first_line
+              ? line
+              : line.substr(std::min(line.find_first_not_of(" \t"), line.size()));
           if (!continued)
             {
               statement = trimmed(statement.substr(0, statement.find('#')));
@@ -80,21 +85,22 @@ namespace graupel
     {
     public:
       using Assign = std::function<void(
-          const std::string &, const std::string &, const std::string &)>;
+        const std::string &, const std::string &, const std::string &)>;
 
       Reader(const std::vector<std::string> &known, const Assign &assign)
-          : known(known)
-          , assign(assign)
+        : known(known)
+        , assign(assign)
       {
       }
 
       // Empty @p asked_by: the file that the user named.
-      void read_file(const std::string &file_name, const std::string &asked_by)
+      void
+      read_file(const std::string &file_name, const std::string &asked_by)
       {
         const std::string where = asked_by.empty() ? file_name : asked_by;
         const std::string what  = asked_by.empty()
-                                      ? "this parameter file"
-                                      : "the included file " + in_quotes(file_name);
+                                    ? "this parameter file"
+                                    : "the included file " + in_quotes(file_name);
 
         std::ifstream stream(file_name);
         if (!stream || std::filesystem::is_directory(file_name))
@@ -108,11 +114,12 @@ namespace graupel
         open_files.pop_back();
       }
 
-      void read_stream(std::istream &stream, const std::string &name)
+      void
+      read_stream(std::istream &stream, const std::string &name)
       {
         const std::size_t sections_outside = sections.size();
-        std::string statement;
-        unsigned int line = 0, lines_read = 0;
+        std::string       statement;
+        unsigned int      line = 0, lines_read = 0;
         while (next_statement(stream, statement, line, lines_read))
           if (!statement.empty())
             obey(statement, name, name + ':' + std::to_string(line), sections_outside);
@@ -120,7 +127,7 @@ namespace graupel
         if (sections.size() > sections_outside)
           refuse(sections.back().origin,
                  "the section " + in_quotes(sections.back().name) +
-                     " has no \"end\" before the end of the file");
+                   " has no \"end\" before the end of the file");
       }
 
     private:
@@ -130,7 +137,8 @@ namespace graupel
         std::string origin;
       };
 
-      std::string path_of(const std::string &name) const
+      std::string
+      path_of(const std::string &name) const
       {
         std::string path;
         for (const OpenSection &section : sections)
@@ -138,22 +146,23 @@ namespace graupel
         return path + name;
       }
 
-      void obey(const std::string &statement,
-                const std::string &file_name,
-                const std::string &origin,
-                const std::size_t sections_outside)
+      void
+      obey(const std::string &statement,
+           const std::string &file_name,
+           const std::string &origin,
+           const std::size_t  sections_outside)
       {
-        const auto blank    = statement.find_first_of(" \t");
+        const auto  blank   = statement.find_first_of(" \t");
         std::string keyword = statement.substr(0, blank);
         std::transform(keyword.begin(),
                        keyword.end(),
                        keyword.begin(),
                        [](unsigned char c) { return std::tolower(c); });
         const std::string rest =
-            blank == std::string::npos ? "" : trimmed(statement.substr(blank));
+          blank == std::string::npos ? "" : trimmed(statement.substr(blank));
 
         if (keyword == "subsection" && !rest.empty())
-          sections.push_back({ rest, origin });
+          sections.push_back({rest, origin});
         else if (keyword == "end" && rest.empty())
           close_section(origin, sections_outside);
         else if (keyword == "set" && !rest.empty())
@@ -162,7 +171,7 @@ namespace graupel
             if (equals == std::string::npos)
               refuse(origin,
                      in_quotes(statement) +
-                         " gives no value; write \"set name = value\"");
+                       " gives no value; write \"set name = value\"");
             assign(path_of(trimmed(rest.substr(0, equals))),
                    trimmed(rest.substr(equals + 1)),
                    origin);
@@ -172,19 +181,20 @@ namespace graupel
                     origin);
         else
           refuse(
-              origin,
-              in_quotes(statement) +
-                  " is no statement; expected \"set name = value\", \"subsection NAME\", "
-                  "\"end\", \"include FILE\" or a comment after #");
+            origin,
+            in_quotes(statement) +
+              " is no statement; expected \"set name = value\", \"subsection NAME\", "
+              "\"end\", \"include FILE\" or a comment after #");
       }
 
       // A section that holds nothing would otherwise escape the check of names.
-      void close_section(const std::string &origin, const std::size_t sections_outside)
+      void
+      close_section(const std::string &origin, const std::size_t sections_outside)
       {
         if (sections.size() <= sections_outside)
           refuse(origin, "this \"end\" closes no section of this file");
 
-        const std::string path = path_of("");
+        const std::string        path = path_of("");
         std::vector<std::string> known_sections;
         for (const std::string &name : known)
           for (auto slash = name.find('/'); slash != std::string::npos;
@@ -195,20 +205,20 @@ namespace graupel
             known_sections.end())
           refuse(sections.back().origin,
                  "there is no section " + in_quotes(name) + "; did you mean " +
-                     in_quotes(nearest_name(name, known_sections)) + "?");
+                   in_quotes(nearest_name(name, known_sections)) + "?");
         sections.pop_back();
       }
 
       const std::vector<std::string> &known;
-      const Assign assign;
-      std::vector<OpenSection> sections;
-      std::vector<std::string> open_files;
+      const Assign                    assign;
+      std::vector<OpenSection>        sections;
+      std::vector<std::string>        open_files;
     };
   } // namespace
 
   InputError::InputError(const std::string &parameter, const std::string &reason)
-      : std::runtime_error(parameter.empty() ? reason : parameter + ": " + reason)
-      , parameter(parameter)
+    : std::runtime_error(parameter.empty() ? reason : parameter + ": " + reason)
+    , parameter(parameter)
   {
   }
 
@@ -220,27 +230,30 @@ namespace graupel
   }
 
   ParameterFile::ParameterFile(dealii::ParameterHandler &handler)
-      : handler(handler)
+    : handler(handler)
   {
     for (const ParameterEntry &entry : parameter_entries(handler))
       known.push_back(entry.path);
   }
 
-  void ParameterFile::read(const std::string &file_name)
+  void
+  ParameterFile::read(const std::string &file_name)
   {
     Reader(known, [this](const auto &path, const auto &value, const auto &origin) {
       assign(path, value, origin);
     }).read_file(file_name, "");
   }
 
-  void ParameterFile::read(std::istream &stream, const std::string &name)
+  void
+  ParameterFile::read(std::istream &stream, const std::string &name)
   {
     Reader(known, [this](const auto &path, const auto &value, const auto &origin) {
       assign(path, value, origin);
     }).read_stream(stream, name);
   }
 
-  void ParameterFile::set(const std::string &assignment)
+  void
+  ParameterFile::set(const std::string &assignment)
   {
     const auto equals = assignment.find('=');
     if (equals == std::string::npos)
@@ -250,7 +263,8 @@ namespace graupel
            "--set");
   }
 
-  std::string ParameterFile::explain(const InputError &error) const
+  std::string
+  ParameterFile::explain(const InputError &error) const
   {
     if (!std::binary_search(known.begin(), known.end(), error.parameter))
       return error.what();
@@ -258,33 +272,35 @@ namespace graupel
     const auto [sections, name] = split_path(error.parameter);
     const std::string value     = error.parameter + " = " + handler.get(sections, name);
     const std::string reason =
-        std::string(error.what()).substr(error.parameter.size() + 2);
+      std::string(error.what()).substr(error.parameter.size() + 2);
     const auto origin = origins.find(error.parameter);
     if (origin == origins.end())
       return value + " (the default): " + reason;
     return origin->second + ": " + value + ": " + reason;
   }
 
-  const std::vector<std::string> &ParameterFile::known_parameters() const
+  const std::vector<std::string> &
+  ParameterFile::known_parameters() const
   {
     return known;
   }
 
-  void ParameterFile::assign(const std::string &path,
-                             const std::string &value,
-                             const std::string &origin)
+  void
+  ParameterFile::assign(const std::string &path,
+                        const std::string &value,
+                        const std::string &origin)
   {
     if (!std::binary_search(known.begin(), known.end(), path))
       refuse(origin,
              "there is no parameter " + in_quotes(path) + "; did you mean " +
-                 in_quotes(nearest_name(path, known)) + "?");
+               in_quotes(nearest_name(path, known)) + "?");
 
     const auto [sections, name] = split_path(path);
     const auto entries          = parameter_entries(handler);
     const auto pattern =
-        std::find_if(entries.begin(), entries.end(), [&path = path](const auto &entry) {
-          return entry.path == path;
-        })->pattern;
+      std::find_if(entries.begin(), entries.end(), [&path = path](const auto &entry) {
+        return entry.path == path;
+      })->pattern;
 
     // deal.II would take a negative number for an unsigned one, modulo 2^32.
     bool fits = !(pattern == "[Integer]" && value.find('-') != std::string::npos);
@@ -307,7 +323,8 @@ namespace graupel
     origins[path] = origin;
   }
 
-  std::string nearest_name(const std::string &name, const std::vector<std::string> &known)
+  std::string
+  nearest_name(const std::string &name, const std::vector<std::string> &known)
   {
     // Levenshtein's distance, a row of the table at a time.
     const auto distance = [&name](const std::string &other) {
@@ -321,7 +338,7 @@ namespace graupel
             {
               const std::size_t replaced = diagonal + (name[i - 1] != other[j - 1]);
               diagonal                   = row[j];
-              row[j] = std::min({ replaced, row[j] + 1, row[j - 1] + 1 });
+              row[j] = std::min({replaced, row[j] + 1, row[j - 1] + 1});
             }
         }
       return row.back();

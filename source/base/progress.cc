@@ -16,7 +16,8 @@ namespace graupel
     constexpr double seconds_between_lines    = 10.;
 
     template <typename... Numbers>
-    std::string formatted(const char *const format, const Numbers... numbers)
+    std::string
+    formatted(const char *const format, const Numbers... numbers)
     {
       std::array<char, 128> buffer;
       std::snprintf(buffer.data(), buffer.size(), format, numbers...);
@@ -25,21 +26,22 @@ namespace graupel
   } // namespace
 
   Progress::Progress(std::ostream &out,
-                     const bool rewrites,
+                     const bool    rewrites,
                      std::ostream *log,
-                     const Clock &clock)
-      : out(&out)
-      , log(log)
-      , rewrites(rewrites)
-      , clock(clock)
+                     const Clock  &clock)
+    : out(&out)
+    , log(log)
+    , rewrites(rewrites)
+    , clock(clock)
   {
   }
 
-  double Progress::steady_seconds()
+  double
+  Progress::steady_seconds()
   {
     return std::chrono::duration<double>(
-               std::chrono::steady_clock::now().time_since_epoch())
-        .count();
+             std::chrono::steady_clock::now().time_since_epoch())
+      .count();
   }
 
   void
@@ -55,7 +57,8 @@ namespace graupel
     say(phase + formatted(": from %.4g s to %.4g s", begin, end));
   }
 
-  void Progress::update(const double time)
+  void
+  Progress::update(const double time)
   {
     if (out == nullptr)
       return;
@@ -78,13 +81,15 @@ namespace graupel
       }
   }
 
-  void Progress::finish_phase()
+  void
+  Progress::finish_phase()
   {
     say(phase + formatted(": reached %.4g s", time) + " after " +
         spoken_duration(clock() - wall_at_begin));
   }
 
-  void Progress::say(const std::string &line)
+  void
+  Progress::say(const std::string &line)
   {
     if (out == nullptr)
       return;
@@ -96,10 +101,11 @@ namespace graupel
       *log << line << std::endl;
   }
 
-  std::string Progress::line() const
+  std::string
+  Progress::line() const
   {
     const double wall = clock() - wall_at_begin;
-    std::string text  = phase + formatted("  %.4g of %.4g s", time, end);
+    std::string  text = phase + formatted("  %.4g of %.4g s", time, end);
     if (end > begin)
       text += formatted("  %.0f %%", 100. * (time - begin) / (end - begin));
     if (wall > 0. && time > begin)
@@ -111,12 +117,14 @@ namespace graupel
     return text;
   }
 
-  void Progress::write_plain(std::ostream &stream) const
+  void
+  Progress::write_plain(std::ostream &stream) const
   {
     stream << line() << std::endl;
   }
 
-  bool stdout_is_terminal()
+  bool
+  stdout_is_terminal()
   {
     if (!isatty(STDOUT_FILENO))
       return false;
@@ -124,13 +132,14 @@ namespace graupel
       return true;
 
     // No answer means mpirun runs on another machine: plain lines do no harm.
-    std::error_code unknown;
+    std::error_code   unknown;
     const std::string target = std::filesystem::read_symlink(
-        "/proc/" + std::to_string(getppid()) + "/fd/1", unknown);
+      "/proc/" + std::to_string(getppid()) + "/fd/1", unknown);
     return target.rfind("/dev/pts/", 0) == 0 || target.rfind("/dev/tty", 0) == 0;
   }
 
-  std::string spoken_duration(const double seconds)
+  std::string
+  spoken_duration(const double seconds)
   {
     if (!(seconds >= 0. && seconds < 1e9))
       return "an unknown time";

@@ -13,9 +13,9 @@ namespace graupel
     struct ErgunCoefficients
     {
       ErgunCoefficients(const FluidProperties &fluid, const double d, const double alpha)
-          : viscous(150. * (1. - alpha) * (1. - alpha) * fluid.viscosity /
-                    (alpha * alpha * alpha * d * d))
-          , inertial(1.75 * (1. - alpha) * fluid.density / (alpha * alpha * alpha * d))
+        : viscous(150. * (1. - alpha) * (1. - alpha) * fluid.viscosity /
+                  (alpha * alpha * alpha * d * d))
+        , inertial(1.75 * (1. - alpha) * fluid.density / (alpha * alpha * alpha * d))
       {
       }
 
@@ -23,50 +23,55 @@ namespace graupel
     };
   } // namespace
 
-  double ergun_pressure_gradient(const FluidProperties &fluid,
-                                 const double diameter,
-                                 const double alpha,
-                                 const double superficial_velocity)
+  double
+  ergun_pressure_gradient(const FluidProperties &fluid,
+                          const double           diameter,
+                          const double           alpha,
+                          const double           superficial_velocity)
   {
     const ErgunCoefficients ergun(fluid, diameter, alpha);
     return (ergun.viscous + ergun.inertial * superficial_velocity) * superficial_velocity;
   }
 
-  double ergun_pressure_drop(const FluidProperties &fluid,
-                             const double diameter,
-                             const double alpha,
-                             const double superficial_velocity,
-                             const double length)
+  double
+  ergun_pressure_drop(const FluidProperties &fluid,
+                      const double           diameter,
+                      const double           alpha,
+                      const double           superficial_velocity,
+                      const double           length)
   {
     return length * ergun_pressure_gradient(fluid, diameter, alpha, superficial_velocity);
   }
 
-  double ergun_superficial_velocity(const FluidProperties &fluid,
-                                    const double diameter,
-                                    const double alpha,
-                                    const double gradient)
+  double
+  ergun_superficial_velocity(const FluidProperties &fluid,
+                             const double           diameter,
+                             const double           alpha,
+                             const double           gradient)
   {
     // Not the textbook root, which loses its digits where the flow is slow.
     const ErgunCoefficients ergun(fluid, diameter, alpha);
-    const double root =
-        std::sqrt(ergun.viscous * ergun.viscous + 4. * ergun.inertial * gradient);
+    const double            root =
+      std::sqrt(ergun.viscous * ergun.viscous + 4. * ergun.inertial * gradient);
     return 2. * gradient / (ergun.viscous + root);
   }
 
-  double ergun_onset_velocity(const FluidProperties &fluid,
-                              const double diameter,
-                              const double alpha,
-                              const double particle_density,
-                              const double gravity)
+  double
+  ergun_onset_velocity(const FluidProperties &fluid,
+                       const double           diameter,
+                       const double           alpha,
+                       const double           particle_density,
+                       const double           gravity)
   {
     const double weight = (1. - alpha) * (particle_density - fluid.density) * gravity;
     return ergun_superficial_velocity(fluid, diameter, alpha, weight > 0. ? weight : 0.);
   }
 
-  double parallel_channels_pressure_gradient(const FluidProperties &fluid,
-                                             const double diameter,
-                                             const std::vector<Channel> &channels,
-                                             const double superficial_velocity)
+  double
+  parallel_channels_pressure_gradient(const FluidProperties      &fluid,
+                                      const double                diameter,
+                                      const std::vector<Channel> &channels,
+                                      const double                superficial_velocity)
   {
     if (channels.empty())
       throw std::invalid_argument("A bed without channels has no pressure gradient.");
@@ -78,7 +83,7 @@ namespace graupel
     for (const Channel &channel : channels)
       {
         const double alone =
-            ergun_pressure_gradient(fluid, diameter, channel.alpha, superficial_velocity);
+          ergun_pressure_gradient(fluid, diameter, channel.alpha, superficial_velocity);
         if (!(channel.area > 0. && alone >= 0. && std::isfinite(alone)))
           throw std::invalid_argument("A channel needs a positive area and a void "
                                       "fraction in (0, 1]; this one has " +
@@ -102,12 +107,12 @@ namespace graupel
     if (excess_flow(most) <= 0.)
       return most;
     std::uintmax_t iterations = 100;
-    const auto bracket =
-        boost::math::tools::toms748_solve(excess_flow,
-                                          least,
-                                          most,
-                                          boost::math::tools::eps_tolerance<double>(48),
-                                          iterations);
+    const auto     bracket =
+      boost::math::tools::toms748_solve(excess_flow,
+                                        least,
+                                        most,
+                                        boost::math::tools::eps_tolerance<double>(48),
+                                        iterations);
     return (bracket.first + bracket.second) / 2.;
   }
 } // namespace graupel

@@ -3,7 +3,8 @@
 
 namespace graupel
 {
-  void FluidProperties::declare(dealii::ParameterHandler &prm)
+  void
+  FluidProperties::declare(dealii::ParameterHandler &prm)
   {
     prm.enter_subsection("Fluid");
     prm.add_parameter("density", density, "Density of the fluid [kg/m^3].");
@@ -11,7 +12,8 @@ namespace graupel
     prm.leave_subsection();
   }
 
-  void FluidProperties::check() const
+  void
+  FluidProperties::check() const
   {
     require(density > 0. && std::isfinite(density),
             "Fluid/density",

@@ -18,7 +18,8 @@ namespace graupel
     // A filtered void fraction may overshoot 1 by a little; the laws bear it.
     constexpr double greatest_void_fraction = 1.01;
 
-    std::string at(const double alpha, const double reynolds)
+    std::string
+    at(const double alpha, const double reynolds)
     {
       std::ostringstream text;
       text << "Re = " << reynolds << ", alpha = " << alpha;
@@ -26,19 +27,21 @@ namespace graupel
     }
   } // namespace
 
-  double exact_drag_number(const DragLaw &law,
-                           const double alpha,
-                           const double reynolds,
-                           const double scale)
+  double
+  exact_drag_number(const DragLaw &law,
+                    const double   alpha,
+                    const double   reynolds,
+                    const double   scale)
   {
     // s C(Re_1) times Re_s = s Re_1.
     return scale * scale * law.drag_number(alpha, reynolds / scale);
   }
 
-  double ricklick_baran_drag_number(const DragLaw &law,
-                                    const double alpha,
-                                    const double reynolds,
-                                    const double scale)
+  double
+  ricklick_baran_drag_number(const DragLaw &law,
+                             const double   alpha,
+                             const double   reynolds,
+                             const double   scale)
   {
     const double unlimited = scale * law.drag_number(alpha, reynolds) - 1.75 * reynolds;
     // In this order std::max keeps a NaN.
@@ -49,14 +52,14 @@ namespace graupel
   struct ScalingExpression::Compiled
   {
     std::string formula;
-    mu::Parser parser;
-    double coefficient = 1., reynolds = 1., alpha = 0.5;
+    mu::Parser  parser;
+    double      coefficient = 1., reynolds = 1., alpha = 0.5;
   };
 
   ScalingExpression::ScalingExpression(const std::string &formula,
-                                       const double scale,
-                                       const double diameter)
-      : compiled(std::make_shared<Compiled>())
+                                       const double       scale,
+                                       const double       diameter)
+    : compiled(std::make_shared<Compiled>())
   {
     compiled->formula = formula;
     try
@@ -73,13 +76,14 @@ namespace graupel
       {
         throw InputError(expression_name,
                          "muParser does not understand it: " + error.GetMsg() +
-                             " It may use Cd, Re, alpha, s and d");
+                           " It may use Cd, Re, alpha, s and d");
       }
   }
 
-  double ScalingExpression::drag_number(const DragLaw &law,
-                                        const double alpha,
-                                        const double reynolds) const
+  double
+  ScalingExpression::drag_number(const DragLaw &law,
+                                 const double   alpha,
+                                 const double   reynolds) const
   {
     const double re       = std::max(reynolds, least_reynolds);
     compiled->coefficient = law.drag_number(alpha, re) / re;
@@ -95,7 +99,8 @@ namespace graupel
     return result * re;
   }
 
-  void DragParameters::declare(dealii::ParameterHandler &prm)
+  void
+  DragParameters::declare(dealii::ParameterHandler &prm)
   {
     std::string names, explained;
     for (const DragLaw &known : drag_laws())
@@ -110,31 +115,32 @@ namespace graupel
                       "Drag of a sphere in a bed." + explained,
                       dealii::Patterns::Selection(names));
     prm.add_parameter(
-        "scaling",
-        scaling,
-        "How the drag of a simulated sphere follows from the s^3 original ones "
-        "that it stands for. exact: the sum of theirs; ricklick-baran: "
-        "s (s Cd - 1.75), limited to positive values, as printed by Ricklick & "
-        "Baran (2014); expression: the formula below; none: the law for a "
-        "sphere of the simulated diameter.",
-        dealii::Patterns::Selection("exact|ricklick-baran|expression|none"));
+      "scaling",
+      scaling,
+      "How the drag of a simulated sphere follows from the s^3 original ones "
+      "that it stands for. exact: the sum of theirs; ricklick-baran: "
+      "s (s Cd - 1.75), limited to positive values, as printed by Ricklick & "
+      "Baran (2014); expression: the formula below; none: the law for a "
+      "sphere of the simulated diameter.",
+      dealii::Patterns::Selection("exact|ricklick-baran|expression|none"));
     prm.add_parameter(
-        "scaling expression",
-        expression,
-        "Formula for the drag coefficient of a simulated sphere, in use with "
-        "\"set scaling = expression\": of Cd and Re, the law's drag coefficient "
-        "and Reynolds number for the simulated diameter, alpha, the void "
-        "fraction, s, the scale, and d, the original diameter in metres.");
+      "scaling expression",
+      expression,
+      "Formula for the drag coefficient of a simulated sphere, in use with "
+      "\"set scaling = expression\": of Cd and Re, the law's drag coefficient "
+      "and Reynolds number for the simulated diameter, alpha, the void "
+      "fraction, s, the scale, and d, the original diameter in metres.");
     prm.leave_subsection();
   }
 
-  void DragParameters::check(const double scale, const double diameter) const
+  void
+  DragParameters::check(const double scale, const double diameter) const
   {
     if (scaling != "expression")
       return;
     const ScalingExpression formula(expression, scale, diameter);
-    for (const double alpha : { 0.3, 0.4, 0.5, 0.6, 0.7 })
-      for (const double reynolds : { 0., 1e-3, 1., 30., 300., 1000. })
+    for (const double alpha : {0.3, 0.4, 0.5, 0.6, 0.7})
+      for (const double reynolds : {0., 1e-3, 1., 30., 300., 1000.})
         try
           {
             formula.drag_number(find_drag_law(law), alpha, reynolds);
@@ -145,38 +151,40 @@ namespace graupel
           }
   }
 
-  Drag::Drag(const DragParameters &parameters,
+  Drag::Drag(const DragParameters  &parameters,
              const FluidProperties &fluid,
-             const double diameter,
-             const double scale)
-      : drag_law(&find_drag_law(parameters.law))
-      , scale(scale)
-      , reynolds_per_slip(fluid.density * scale * diameter / fluid.viscosity)
-      , beta_per_drag_number(dealii::numbers::PI / 8. * fluid.viscosity * scale *
-                             diameter)
+             const double           diameter,
+             const double           scale)
+    : drag_law(&find_drag_law(parameters.law))
+    , scale(scale)
+    , reynolds_per_slip(fluid.density * scale * diameter / fluid.viscosity)
+    , beta_per_drag_number(dealii::numbers::PI / 8. * fluid.viscosity * scale * diameter)
   {
-    static const std::map<std::string, Form> forms{ { "exact", Form::exact },
-                                                    { "ricklick-baran",
-                                                      Form::ricklick_baran },
-                                                    { "expression", Form::expression },
-                                                    { "none", Form::none } };
+    static const std::map<std::string, Form> forms{
+      {"exact", Form::exact},
+      {"ricklick-baran", Form::ricklick_baran},
+      {"expression", Form::expression},
+      {"none", Form::none}};
     form = forms.at(parameters.scaling);
     if (form == Form::expression)
       expression =
-          std::make_shared<ScalingExpression>(parameters.expression, scale, diameter);
+        std::make_shared<ScalingExpression>(parameters.expression, scale, diameter);
   }
 
-  double Drag::reynolds(const double slip) const
+  double
+  Drag::reynolds(const double slip) const
   {
     return reynolds_per_slip * slip;
   }
 
-  const DragLaw &Drag::law() const
+  const DragLaw &
+  Drag::law() const
   {
     return *drag_law;
   }
 
-  double Drag::drag_number(const double alpha, const double reynolds) const
+  double
+  Drag::drag_number(const double alpha, const double reynolds) const
   {
     switch (form)
       {
@@ -192,7 +200,8 @@ namespace graupel
     return drag_law->drag_number(alpha, reynolds);
   }
 
-  double Drag::beta(const double alpha, const double slip) const
+  double
+  Drag::beta(const double alpha, const double slip) const
   {
     const double re = reynolds(slip);
     if (!(alpha > 0. && alpha <= greatest_void_fraction))

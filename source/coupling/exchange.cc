@@ -31,23 +31,25 @@ namespace graupel
   CouplingParameters::declare(dealii::ParameterHandler &prm)
   {
     prm.enter_subsection("Coupling");
-    prm.add_parameter("filter length",
-                      filter_length,
-                      "Length of the filter that spreads a particle's volume and drag over the "
-                      "mesh, and gathers fluid fields at the particle, a Gaussian of standard "
-                      "deviation 1.41 times this length; auto is 0.75 diameters of a simulated "
-                      "particle, 0 a plain deposit on the nearest nodes [m].");
+    prm.add_parameter(
+      "filter length",
+      filter_length,
+      "Length of the filter that spreads a particle's volume and drag over the "
+      "mesh, and gathers fluid fields at the particle: a Gaussian of standard "
+      "deviation 1.41 times this length. auto makes the standard deviation one "
+      "diameter of a simulated particle, 0 is a plain deposit on the nearest "
+      "nodes [m].");
     prm.leave_subsection();
   }
 
   double
   CouplingParameters::length(const double simulated_diameter) const
   {
-    // Three quarters of a diameter: with less, the solid fraction at a particle
+    // A standard deviation of one diameter: with less, the solid fraction at a particle
     // is no longer that of its surroundings; with more, the bed's surface is
     // smeared further (doc/design.md).
     if (filter_length == "auto")
-      return 0.75 * simulated_diameter;
+      return simulated_diameter / std::sqrt(2.);
     std::size_t  end   = 0;
     const double value = std::stod(filter_length, &end);
     if (end != filter_length.size())
@@ -58,7 +60,7 @@ namespace graupel
   void
   CouplingParameters::check() const
   {
-    const std::string name = "Coupling/filter length";
+    const std::string name  = "Coupling/filter length";
     double            value = -1.;
     try
       {
@@ -70,8 +72,8 @@ namespace graupel
       }
     require(value >= 0. && std::isfinite(value),
             name,
-            "a filter cannot have a negative length; 0 switches it off, auto takes 0.75 "
-            "diameters of a simulated particle");
+            "a filter cannot have a negative length; 0 switches it off, auto makes "
+            "the filter one particle diameter wide");
   }
 
   Exchange::Exchange(const double      filter_length,
@@ -110,8 +112,9 @@ namespace graupel
   void
   Exchange::deposit_void_fraction(const ParticleArrays &particles)
   {
-    volume = by_row(particles.n_owned,
-                    [&](const unsigned int row) { return sphere_volume(particles.radius[row]); });
+    volume = by_row(particles.n_owned, [&](const unsigned int row) {
+      return sphere_volume(particles.radius[row]);
+    });
     transfer.deposit(scratch, volume);
     filter.spread(solid_fraction, scratch);
 
@@ -209,8 +212,9 @@ namespace graupel
       for (unsigned int k = 0; k < scratch.locally_owned_size(); ++k)
         {
           const double alpha = result.void_fraction.local_element(k);
-          const double drag  = result.drag.local_element(k) * flow.flux()[i].local_element(k) / alpha -
-                              result.drag_source[i].local_element(k);
+          const double drag =
+            result.drag.local_element(k) * flow.flux()[i].local_element(k) / alpha -
+            result.drag_source[i].local_element(k);
           lost[i] += nodes.measure().local_element(k) *
                      (drag - (1. - alpha) * pressure_gradient[i].local_element(k));
         }

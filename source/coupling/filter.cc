@@ -35,23 +35,19 @@ namespace graupel
   void
   Filter::assemble()
   {
-    dealii::TrilinosWrappers::SparsityPattern pattern(nodes.owned,
-                                                      nodes.owned,
-                                                      nodes.relevant,
-                                                      nodes.mesh.communicator());
-    dealii::DoFTools::make_sparsity_pattern(nodes.dof_handler,
-                                            pattern,
-                                            nodes.hanging_nodes,
-                                            false);
+    dealii::TrilinosWrappers::SparsityPattern pattern(
+      nodes.owned, nodes.owned, nodes.relevant, nodes.mesh.communicator());
+    dealii::DoFTools::make_sparsity_pattern(
+      nodes.dof_handler, pattern, nodes.hanging_nodes, false);
     pattern.compress();
     stiffness.reinit(pattern);
 
-    dealii::FEValues<3>        values(nodes.mesh.mapping(),
+    dealii::FEValues<3>                          values(nodes.mesh.mapping(),
                                nodes.fe,
                                nodes.quadrature,
                                dealii::update_gradients | dealii::update_JxW_values);
-    const unsigned int         n = nodes.fe.n_dofs_per_cell();
-    dealii::FullMatrix<double> local(n, n);
+    const unsigned int                           n = nodes.fe.n_dofs_per_cell();
+    dealii::FullMatrix<double>                   local(n, n);
     std::vector<dealii::types::global_dof_index> indices(n);
     for (const auto &cell : nodes.dof_handler.active_cell_iterators())
       if (cell->is_locally_owned())

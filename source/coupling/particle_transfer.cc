@@ -4,7 +4,8 @@ namespace graupel
 {
   ParticleTransfer::ParticleTransfer(const NodalSpace &nodes)
     : nodes(nodes)
-  {}
+  {
+  }
 
   void
   ParticleTransfer::update(const ParticleStore &store)
@@ -20,7 +21,10 @@ namespace graupel
       entry.end_row   = first_row + locations.size();
       entry.nodes.resize(n_nodes);
       const typename dealii::DoFHandler<3>::active_cell_iterator dof_cell(
-        &nodes.dof_handler.get_triangulation(), cell->level(), cell->index(), &nodes.dof_handler);
+        &nodes.dof_handler.get_triangulation(),
+        cell->level(),
+        cell->index(),
+        &nodes.dof_handler);
       dof_cell->get_dof_indices(entry.nodes);
       for (unsigned int a = 0; a < n_nodes; ++a)
         entry.local_nodes[a] = partitioner.global_to_local(entry.nodes[a]);

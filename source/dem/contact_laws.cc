@@ -8,18 +8,21 @@ namespace graupel
 
   namespace
   {
-    double normal_compliance(const Elasticity &body)
+    double
+    normal_compliance(const Elasticity &body)
     {
       return (1. - body.poisson_ratio * body.poisson_ratio) / body.young_modulus;
     }
 
-    double shear_compliance(const Elasticity &body)
+    double
+    shear_compliance(const Elasticity &body)
     {
       return 2. * (2. - body.poisson_ratio) * (1. + body.poisson_ratio) /
              body.young_modulus;
     }
 
-    double damping_ratio(const double restitution)
+    double
+    damping_ratio(const double restitution)
     {
       const double l = std::log(restitution);
       return -l / std::sqrt(l * l + PI * PI);
@@ -28,18 +31,18 @@ namespace graupel
 
   PairMaterial::PairMaterial(const Elasticity &first,
                              const Elasticity &second,
-                             const Surface &surface,
-                             const double normal_stiffness,
-                             const double stiffness_ratio)
-      : young(1. / (normal_compliance(first) + normal_compliance(second)))
-      , shear(1. / (shear_compliance(first) + shear_compliance(second)))
-      , damping(damping_ratio(surface.restitution))
-      , normal_stiffness(normal_stiffness)
-      , stiffness_ratio(stiffness_ratio)
-      , mindlin_damping_ratio(std::sqrt(4. * shear / young))
-      , linear_damping_ratio(std::sqrt(stiffness_ratio))
-      , friction(surface.friction)
-      , rolling_resistance(surface.rolling_resistance)
+                             const Surface    &surface,
+                             const double      normal_stiffness,
+                             const double      stiffness_ratio)
+    : young(1. / (normal_compliance(first) + normal_compliance(second)))
+    , shear(1. / (shear_compliance(first) + shear_compliance(second)))
+    , damping(damping_ratio(surface.restitution))
+    , normal_stiffness(normal_stiffness)
+    , stiffness_ratio(stiffness_ratio)
+    , mindlin_damping_ratio(std::sqrt(4. * shear / young))
+    , linear_damping_ratio(std::sqrt(stiffness_ratio))
+    , friction(surface.friction)
+    , rolling_resistance(surface.rolling_resistance)
   {
   }
 
@@ -51,7 +54,8 @@ namespace graupel
     return PI * radius * std::sqrt(density / G) / (0.1631 * nu + 0.8766);
   }
 
-  double hertz_overlap(const double force, const double young, const double radius)
+  double
+  hertz_overlap(const double force, const double young, const double radius)
   {
     return std::pow(3. * force / (4. * young * std::sqrt(radius)), 2. / 3.);
   }

@@ -17,41 +17,43 @@ namespace graupel
     constexpr double test_margin = 1. + 1e-12;
 
     // A contact that began within the substep has moved only since then.
-    double step_in_contact(const Contact &contact, const double dt)
+    double
+    step_in_contact(const Contact &contact, const double dt)
     {
       const double approached = contact.drift * contact.normal * dt;
       return approached > contact.overlap ? dt * contact.overlap / approached : dt;
     }
   } // namespace
 
-  ContactSweep::ContactSweep(const NormalLaws &normal_law,
-                             const RollingLaws &rolling_law,
+  ContactSweep::ContactSweep(const NormalLaws        &normal_law,
+                             const RollingLaws       &rolling_law,
                              const std::vector<Wall> &walls,
-                             const double reference_force,
-                             const double reference_radius)
-      : normal_law(normal_law)
-      , rolling_law(rolling_law)
-      , walls(walls)
-      , largest_force(largest_relative_force * reference_force)
-      , force_quantum(reference_force * 0x1p-50)
-      , torque_quantum(force_quantum * reference_radius)
-      // Loads are summed over many sweeps and whole beds: more room, coarser.
-      , load_quantum(reference_force * 0x1p-36)
-      , inverse_force_quantum(1. / force_quantum)
-      , inverse_torque_quantum(1. / torque_quantum)
-      , inverse_load_quantum(1. / load_quantum)
-      , wall_memory(walls.size())
-      , loads(walls.size())
+                             const double             reference_force,
+                             const double             reference_radius)
+    : normal_law(normal_law)
+    , rolling_law(rolling_law)
+    , walls(walls)
+    , largest_force(largest_relative_force * reference_force)
+    , force_quantum(reference_force * 0x1p-50)
+    , torque_quantum(force_quantum * reference_radius)
+    // Loads are summed over many sweeps and whole beds: more room, coarser.
+    , load_quantum(reference_force * 0x1p-36)
+    , inverse_force_quantum(1. / force_quantum)
+    , inverse_torque_quantum(1. / torque_quantum)
+    , inverse_load_quantum(1. / load_quantum)
+    , wall_memory(walls.size())
+    , loads(walls.size())
   {
   }
 
-  void ContactSweep::load(const ParticleArrays &particles,
-                          const VerletList &list,
-                          const SpringTable &table)
+  void
+  ContactSweep::load(const ParticleArrays &particles,
+                     const VerletList     &list,
+                     const SpringTable    &table)
   {
     const auto fetch = [&](const unsigned int row, const std::int64_t partner) {
       const Springs *springs = table.find(row, partner);
-      return springs ? Memory{ *springs, true } : Memory{};
+      return springs ? Memory{*springs, true} : Memory{};
     };
 
     pair_memory.resize(list.pairs.size());
@@ -59,7 +61,7 @@ namespace graupel
       {
         const auto [i, j] = list.pairs[k];
         pair_memory[k] =
-            i < particles.n_owned ? fetch(i, particles.id[j]) : fetch(j, particles.id[i]);
+          i < particles.n_owned ? fetch(i, particles.id[j]) : fetch(j, particles.id[i]);
       }
 
     for (unsigned int w = 0; w < walls.size(); ++w)
@@ -71,18 +73,18 @@ namespace graupel
     sums.resize(particles.n_rows());
   }
 
-  std::string ContactSweep::store(const ParticleArrays &particles,
-                                  const VerletList &list,
-                                  SpringTable &table) const
+  std::string
+  ContactSweep::store(const ParticleArrays &particles,
+                      const VerletList     &list,
+                      SpringTable          &table) const
   {
     table.reset(particles.n_owned);
     std::int64_t overfull = -1;
-    const auto write      = [&](const unsigned int row,
-                           const std::int64_t partner,
-                           const Memory &m) {
-      if (row < particles.n_owned && m.touching && !table.add(row, partner, m.springs))
-        overfull = particles.id[row];
-    };
+    const auto   write =
+      [&](const unsigned int row, const std::int64_t partner, const Memory &m) {
+        if (row < particles.n_owned && m.touching && !table.add(row, partner, m.springs))
+          overfull = particles.id[row];
+      };
 
     for (std::size_t k = 0; k < pair_memory.size(); ++k)
       {
@@ -101,18 +103,20 @@ namespace graupel
            " others, more than spheres of similar size can: are the radii too different?";
   }
 
-  bool ContactSweep::in_range(const ContactAction &action,
-                              const double overlap,
-                              const double radius) const
+  bool
+  ContactSweep::in_range(const ContactAction &action,
+                         const double         overlap,
+                         const double         radius) const
   {
     return overlap < largest_overlap * radius &&
            action.force.norm_square() < largest_force * largest_force;
   }
 
-  void ContactSweep::add(Quanta &sum,
-                         const Vector &force,
-                         const Vector &torque,
-                         const double sign) const
+  void
+  ContactSweep::add(Quanta       &sum,
+                    const Vector &force,
+                    const Vector &torque,
+                    const double  sign) const
   {
     for (unsigned int d = 0; d < 3; ++d)
       {
@@ -121,9 +125,10 @@ namespace graupel
       }
   }
 
-  void ContactSweep::fail(const unsigned int row,
-                          const std::int64_t partner,
-                          const double overlap)
+  void
+  ContactSweep::fail(const unsigned int row,
+                     const std::int64_t partner,
+                     const double       overlap)
   {
     failed_row     = row;
     failed_partner = partner;
@@ -133,11 +138,12 @@ namespace graupel
   // Not inlined, so that there is one piece of machine code for every pair:
   // copies of an inlined body could contract products and sums differently.
   template <class NormalLaw, class RollingLaw>
-  [[gnu::noinline]] void ContactSweep::evaluate_pair(const ParticleArrays &p,
-                                                     const NeighborPair pair,
-                                                     const PairMaterial &material,
-                                                     const double dt,
-                                                     Memory &memory)
+  [[gnu::noinline]] void
+  ContactSweep::evaluate_pair(const ParticleArrays &p,
+                              const NeighborPair    pair,
+                              const PairMaterial   &material,
+                              const double          dt,
+                              Memory               &memory)
   {
     const auto [i, j]     = pair;
     const Vector between  = p.position[j] - p.position[i];
@@ -159,18 +165,18 @@ namespace graupel
     // angular momentum is conserved.
     const double a_i = r_i - 0.5 * contact.overlap, a_j = r_j - 0.5 * contact.overlap;
     contact.velocity =
-        p.velocity[i] - p.velocity[j] +
-        cross_product_3d(a_i * p.spin[i] + a_j * p.spin[j], contact.normal);
+      p.velocity[i] - p.velocity[j] +
+      cross_product_3d(a_i * p.spin[i] + a_j * p.spin[j], contact.normal);
     contact.drift =
-        p.drift[i] - p.drift[j] +
-        cross_product_3d(a_i * p.spin_drift[i] + a_j * p.spin_drift[j], contact.normal);
+      p.drift[i] - p.drift[j] +
+      cross_product_3d(a_i * p.spin_drift[i] + a_j * p.spin_drift[j], contact.normal);
     contact.spin_drift = p.spin_drift[i] - p.spin_drift[j];
     contact.step       = memory.touching ? dt : step_in_contact(contact, dt);
     memory.touching    = true;
     ++evaluated;
 
     const ContactAction action =
-        contact_action<NormalLaw, RollingLaw>(material, contact, memory.springs);
+      contact_action<NormalLaw, RollingLaw>(material, contact, memory.springs);
     if (!in_range(action, contact.overlap, std::min(r_i, r_j)))
       return fail(i, p.id[j], contact.overlap);
 
@@ -180,13 +186,14 @@ namespace graupel
   }
 
   template <class NormalLaw, class RollingLaw, class Surface>
-  [[gnu::noinline]] void ContactSweep::evaluate_wall(const ParticleArrays &p,
-                                                     const unsigned int i,
-                                                     const unsigned int wall,
-                                                     const Surface &surface,
-                                                     const PairMaterial &material,
-                                                     const double dt,
-                                                     Memory &memory)
+  [[gnu::noinline]] void
+  ContactSweep::evaluate_wall(const ParticleArrays &p,
+                              const unsigned int    i,
+                              const unsigned int    wall,
+                              const Surface        &surface,
+                              const PairMaterial   &material,
+                              const double          dt,
+                              Memory               &memory)
   {
     const WallGeometry geometry = surface.at(p.position[i]);
 
@@ -211,7 +218,7 @@ namespace graupel
     ++evaluated;
 
     const ContactAction action =
-        contact_action<NormalLaw, RollingLaw>(material, contact, memory.springs);
+      contact_action<NormalLaw, RollingLaw>(material, contact, memory.springs);
     if (!in_range(action, contact.overlap, p.radius[i]))
       return fail(i, wall_id(wall), contact.overlap);
 
@@ -224,10 +231,11 @@ namespace graupel
   }
 
   template <class NormalLaw, class RollingLaw>
-  void ContactSweep::sweep_pairs(const ParticleArrays &particles,
-                                 const std::vector<NeighborPair> &pairs,
-                                 const PairMaterial &material,
-                                 const double dt)
+  void
+  ContactSweep::sweep_pairs(const ParticleArrays            &particles,
+                            const std::vector<NeighborPair> &pairs,
+                            const PairMaterial              &material,
+                            const double                     dt)
   {
     for (std::size_t k = 0; k < pairs.size(); ++k)
       {
@@ -236,42 +244,43 @@ namespace graupel
         const double gap = (particles.position[j] - particles.position[i]).norm_square();
         if (gap < reach * reach * test_margin || pair_memory[k].touching)
           evaluate_pair<NormalLaw, RollingLaw>(
-              particles, pairs[k], material, dt, pair_memory[k]);
+            particles, pairs[k], material, dt, pair_memory[k]);
       }
   }
 
-  void ContactSweep::sweep(ParticleArrays &particles,
-                           const VerletList &list,
-                           const Materials &materials,
-                           const double dt)
+  void
+  ContactSweep::sweep(ParticleArrays   &particles,
+                      const VerletList &list,
+                      const Materials  &materials,
+                      const double      dt)
   {
     std::fill(sums.begin(), sums.end(), Quanta{});
     evaluated      = 0;
     failed_overlap = 0.;
 
     std::visit(
-        [&](const auto normal, const auto rolling) {
-          using NormalLaw  = std::decay_t<decltype(normal)>;
-          using RollingLaw = std::decay_t<decltype(rolling)>;
-          sweep_pairs<NormalLaw, RollingLaw>(
-              particles, list.pairs, materials.particles, dt);
+      [&](const auto normal, const auto rolling) {
+        using NormalLaw  = std::decay_t<decltype(normal)>;
+        using RollingLaw = std::decay_t<decltype(rolling)>;
+        sweep_pairs<NormalLaw, RollingLaw>(
+          particles, list.pairs, materials.particles, dt);
 
-          for (unsigned int w = 0; w < walls.size(); ++w)
-            std::visit(
-                [&](const auto &surface) {
-                  for (std::size_t k = 0; k < list.wall_rows[w].size(); ++k)
-                    evaluate_wall<NormalLaw, RollingLaw>(particles,
-                                                         list.wall_rows[w][k],
-                                                         w,
-                                                         surface,
-                                                         materials.walls,
-                                                         dt,
-                                                         wall_memory[w][k]);
-                },
-                walls[w].shape);
-        },
-        normal_law,
-        rolling_law);
+        for (unsigned int w = 0; w < walls.size(); ++w)
+          std::visit(
+            [&](const auto &surface) {
+              for (std::size_t k = 0; k < list.wall_rows[w].size(); ++k)
+                evaluate_wall<NormalLaw, RollingLaw>(particles,
+                                                     list.wall_rows[w][k],
+                                                     w,
+                                                     surface,
+                                                     materials.walls,
+                                                     dt,
+                                                     wall_memory[w][k]);
+            },
+            walls[w].shape);
+      },
+      normal_law,
+      rolling_law);
 
     for (unsigned int i = 0; i < particles.n_owned; ++i)
       for (unsigned int d = 0; d < 3; ++d)
@@ -281,7 +290,8 @@ namespace graupel
         }
   }
 
-  std::string ContactSweep::failure(const ParticleArrays &particles) const
+  std::string
+  ContactSweep::failure(const ParticleArrays &particles) const
   {
     if (!failed())
       return {};
@@ -299,8 +309,9 @@ namespace graupel
     return text.str();
   }
 
-  unsigned int ContactSweep::n_touching_pairs(const ParticleArrays &particles,
-                                              const VerletList &list) const
+  unsigned int
+  ContactSweep::n_touching_pairs(const ParticleArrays &particles,
+                                 const VerletList     &list) const
   {
     unsigned int n = 0;
     for (std::size_t k = 0; k < pair_memory.size(); ++k)
@@ -309,25 +320,28 @@ namespace graupel
     return n;
   }
 
-  unsigned int ContactSweep::n_touching_walls() const
+  unsigned int
+  ContactSweep::n_touching_walls() const
   {
     unsigned int n = 0;
     for (const auto &memories : wall_memory)
       n += std::count_if(
-          memories.begin(), memories.end(), [](const Memory &m) { return m.touching; });
+        memories.begin(), memories.end(), [](const Memory &m) { return m.touching; });
     return n;
   }
 
-  void ContactSweep::reset_wall_loads()
+  void
+  ContactSweep::reset_wall_loads()
   {
     std::fill(loads.begin(), loads.end(), std::array<std::int64_t, 3>{});
   }
 
-  std::vector<dealii::Tensor<1, 3>> ContactSweep::wall_loads(MPI_Comm communicator) const
+  std::vector<dealii::Tensor<1, 3>>
+  ContactSweep::wall_loads(MPI_Comm communicator) const
   {
     std::vector<std::array<std::int64_t, 3>> all(loads.size());
-    const int ierr = MPI_Allreduce(
-        loads.data(), all.data(), 3 * loads.size(), MPI_INT64_T, MPI_SUM, communicator);
+    const int                                ierr = MPI_Allreduce(
+      loads.data(), all.data(), 3 * loads.size(), MPI_INT64_T, MPI_SUM, communicator);
     AssertThrowMPI(ierr);
 
     std::vector<dealii::Tensor<1, 3>> forces(loads.size());

@@ -14,10 +14,11 @@ namespace graupel
 
     // One particle's half kick and drift. Not inlined, so that every particle
     // passes through the same machine code, whatever its row: see ContactSweep.
-    [[gnu::noinline]] void drift_particle(ParticleArrays &p,
-                                          const unsigned int i,
-                                          const double gravity,
-                                          const double dt)
+    [[gnu::noinline]] void
+    drift_particle(ParticleArrays    &p,
+                   const unsigned int i,
+                   const double       gravity,
+                   const double       dt)
     {
       Vector half_kick = (p.force[i] + p.external_force[i]) / p.mass[i];
       half_kick[2] -= gravity;
@@ -31,10 +32,11 @@ namespace graupel
       p.spin[i]     = p.spin_drift[i] + half_turn;
     }
 
-    [[gnu::noinline]] void kick_particle(ParticleArrays &p,
-                                         const unsigned int i,
-                                         const double gravity,
-                                         const double dt)
+    [[gnu::noinline]] void
+    kick_particle(ParticleArrays    &p,
+                  const unsigned int i,
+                  const double       gravity,
+                  const double       dt)
     {
       Vector half_kick = (p.force[i] + p.external_force[i]) / p.mass[i];
       half_kick[2] -= gravity;
@@ -42,7 +44,8 @@ namespace graupel
       p.spin[i]     = p.spin_drift[i] + (0.5 * dt / p.inertia[i]) * p.torque[i];
     }
 
-    [[gnu::noinline]] double kinetic_energy(const ParticleArrays &p, const unsigned int i)
+    [[gnu::noinline]] double
+    kinetic_energy(const ParticleArrays &p, const unsigned int i)
     {
       return 0.5 * (p.mass[i] * p.velocity[i].norm_square() +
                     p.inertia[i] * p.spin[i].norm_square());
@@ -50,30 +53,31 @@ namespace graupel
   } // namespace
 
   Dem::Dem(const DemParameters &parameters, const CylinderMesh &mesh, CostSheet &costs)
-      : input(parameters)
-      , mesh(mesh)
-      , costs(costs)
-      , smallest_edge(mesh.smallest_edge())
-      , longest_substep(input.substep())
-      , skin(input.contact.skin * 2. * input.particles.simulated_radius())
-      , materials{ input.particle_pair(false), input.wall_pair(false) }
-      , gravity(input.particles.gravity)
-      , particle_store(mesh, input.particles.density)
-      , walls(vessel_walls(mesh.cylinder()))
-      , halo(mesh.cylinder(),
-             2. * input.particles.simulated_radius() + skin,
-             mesh.communicator())
-      , list(skin)
-      , contacts(input.normal_law(),
-                 input.rolling_law(),
-                 walls,
-                 input.reference_force(),
-                 input.particles.simulated_radius())
-      , wall_loads(walls.size())
+    : input(parameters)
+    , mesh(mesh)
+    , costs(costs)
+    , smallest_edge(mesh.smallest_edge())
+    , longest_substep(input.substep())
+    , skin(input.contact.skin * 2. * input.particles.simulated_radius())
+    , materials{input.particle_pair(false), input.wall_pair(false)}
+    , gravity(input.particles.gravity)
+    , particle_store(mesh, input.particles.density)
+    , walls(vessel_walls(mesh.cylinder()))
+    , halo(mesh.cylinder(),
+           2. * input.particles.simulated_radius() + skin,
+           mesh.communicator())
+    , list(skin)
+    , contacts(input.normal_law(),
+               input.rolling_law(),
+               walls,
+               input.reference_force(),
+               input.particles.simulated_radius())
+    , wall_loads(walls.size())
   {
   }
 
-  void Dem::insert(const std::vector<dealii::Point<3>> &positions, const Vector &velocity)
+  void
+  Dem::insert(const std::vector<dealii::Point<3>> &positions, const Vector &velocity)
   {
     save_springs();
     particle_store.scatter(arrays, spring_table);
@@ -84,7 +88,8 @@ namespace graupel
     list_is_valid        = false;
   }
 
-  void Dem::synchronise()
+  void
+  Dem::synchronise()
   {
     save_springs();
     particle_store.scatter(arrays, spring_table);
@@ -94,30 +99,34 @@ namespace graupel
     list_is_valid        = false;
   }
 
-  void Dem::save_springs()
+  void
+  Dem::save_springs()
   {
     // Without a valid list the table, as gathered, is what is current.
     if (list_is_valid)
       throw_together(contacts.store(arrays, list, spring_table), communicator());
   }
 
-  void Dem::use_packing_materials(const bool packing)
+  void
+  Dem::use_packing_materials(const bool packing)
   {
-    materials = { input.particle_pair(packing), input.wall_pair(packing) };
+    materials = {input.particle_pair(packing), input.wall_pair(packing)};
   }
 
-  void Dem::set_friction(const double particles, const double walls)
+  void
+  Dem::set_friction(const double particles, const double walls)
   {
     materials.particles.friction = particles;
     materials.walls.friction     = walls;
   }
 
-  void Dem::advance(const double duration)
+  void
+  Dem::advance(const double duration)
   {
     // A duration that is a whole number of substeps but for rounding must not
     // cost one more.
     const auto n =
-        static_cast<unsigned int>(std::ceil(duration / longest_substep - 1e-9));
+      static_cast<unsigned int>(std::ceil(duration / longest_substep - 1e-9));
     const auto dt = duration / std::max(1u, n);
 
     contacts.reset_wall_loads();
@@ -131,7 +140,8 @@ namespace graupel
     throw_together(contacts.failure(arrays), communicator());
   }
 
-  void Dem::substep_by(const double dt)
+  void
+  Dem::substep_by(const double dt)
   {
     // deal.II loses particles that cross more than one layer of cells between
     // two migrations, unless there is one rank only.
@@ -152,29 +162,32 @@ namespace graupel
     costs.contact_steps += contacts.n_evaluated();
   }
 
-  void Dem::drift(const double dt)
+  void
+  Dem::drift(const double dt)
   {
     CostSheet::Scope scope(costs, CostSheet::contact);
     for (unsigned int i = 0; i < arrays.n_owned; ++i)
       drift_particle(arrays, i, gravity, dt);
   }
 
-  void Dem::kick(const double dt)
+  void
+  Dem::kick(const double dt)
   {
     for (unsigned int i = 0; i < arrays.n_owned; ++i)
       kick_particle(arrays, i, gravity, dt);
   }
 
-  void Dem::update_neighbors()
+  void
+  Dem::update_neighbors()
   {
     // One number tells all ranks both how far particles went and whether some
     // rank must stop.
-    const std::string problem = first_problem();
-    double farthest           = problem.empty() ? 0. : infinity;
+    const std::string problem  = first_problem();
+    double            farthest = problem.empty() ? 0. : infinity;
     if (list_is_valid)
       for (unsigned int i = 0; i < arrays.n_owned; ++i)
         farthest =
-            std::max(farthest, (arrays.position[i] - listed_position[i]).norm_square());
+          std::max(farthest, (arrays.position[i] - listed_position[i]).norm_square());
     {
       CostSheet::Scope scope(costs, CostSheet::halo);
       farthest = dealii::Utilities::MPI::max(farthest, communicator());
@@ -187,7 +200,8 @@ namespace graupel
       rebuild_list();
   }
 
-  std::string Dem::first_problem() const
+  std::string
+  Dem::first_problem() const
   {
     if (contacts.failed())
       return contacts.failure(arrays);
@@ -198,7 +212,8 @@ namespace graupel
     return {};
   }
 
-  void Dem::rebuild_list()
+  void
+  Dem::rebuild_list()
   {
     save_springs();
     move_since_migration += move_since_list;
@@ -216,17 +231,20 @@ namespace graupel
     ++list_builds;
   }
 
-  double Dem::solid_volume() const
+  double
+  Dem::solid_volume() const
   {
     return n_global() * sphere_volume(input.particles.simulated_radius());
   }
 
-  double Dem::weight() const
+  double
+  Dem::weight() const
   {
     return n_global() * input.particles.simulated_mass() * input.particles.gravity;
   }
 
-  double Dem::maximum_speed() const
+  double
+  Dem::maximum_speed() const
   {
     double largest = 0.;
     for (unsigned int i = 0; i < arrays.n_owned; ++i)
@@ -234,7 +252,8 @@ namespace graupel
     return std::sqrt(dealii::Utilities::MPI::max(largest, communicator()));
   }
 
-  double Dem::mean_kinetic_energy() const
+  double
+  Dem::mean_kinetic_energy() const
   {
     double largest = 0.;
     for (unsigned int i = 0; i < arrays.n_owned; ++i)
@@ -245,7 +264,8 @@ namespace graupel
     return sum.total(communicator()) / std::max(1u, n_global());
   }
 
-  double Dem::coordination_number() const
+  double
+  Dem::coordination_number() const
   {
     // Each pair counts for both of its partners, on the rank of its lower id or
     // in the tables of both.

@@ -2,12 +2,13 @@
 
 namespace graupel
 {
-  void throw_together(const std::string &message, MPI_Comm communicator)
+  void
+  throw_together(const std::string &message, MPI_Comm communicator)
   {
     namespace mpi              = dealii::Utilities::MPI;
     const unsigned int n_ranks = mpi::n_mpi_processes(communicator);
     const unsigned int culprit = mpi::min(
-        message.empty() ? n_ranks : mpi::this_mpi_process(communicator), communicator);
+      message.empty() ? n_ranks : mpi::this_mpi_process(communicator), communicator);
     if (culprit < n_ranks)
       throw DemError(mpi::broadcast(communicator, message, culprit));
   }

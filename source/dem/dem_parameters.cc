@@ -21,7 +21,8 @@ namespace graupel
               "a coefficient of rolling resistance lies between 0 and 1; 0.1 is usual");
     }
 
-    void check_surface(const Surface &surface, const std::string &which)
+    void
+    check_surface(const Surface &surface, const std::string &which)
     {
       require(surface.restitution >= 0.01 && surface.restitution <= 1.,
               "Contact/" + which + " restitution",
@@ -29,7 +30,8 @@ namespace graupel
       check_friction(surface.friction, surface.rolling_resistance, which);
     }
 
-    void check_elasticity(const Elasticity &elasticity, const std::string &which)
+    void
+    check_elasticity(const Elasticity &elasticity, const std::string &which)
     {
       require(elasticity.young_modulus > 0.,
               "Contact/" + which + " Young's modulus",
@@ -39,7 +41,8 @@ namespace graupel
               "an isotropic solid has a ratio between 0 and 0.5");
     }
 
-    std::string number(const double value)
+    std::string
+    number(const double value)
     {
       std::ostringstream text;
       text << value;
@@ -47,29 +50,32 @@ namespace graupel
     }
   } // namespace
 
-  double ParticleParameters::simulated_mass() const
+  double
+  ParticleParameters::simulated_mass() const
   {
     return density * sphere_volume(simulated_radius());
   }
 
-  void ParticleParameters::declare(dealii::ParameterHandler &prm)
+  void
+  ParticleParameters::declare(dealii::ParameterHandler &prm)
   {
     prm.enter_subsection("Particles");
     prm.add_parameter("diameter",
                       diameter,
                       "Diameter of the original particles, those of the real bed [m].");
     prm.add_parameter(
-        "scale",
-        scale,
-        "Diameter of a simulated particle over that of an original one; each "
-        "simulated particle stands for scale^3 original ones [-].");
+      "scale",
+      scale,
+      "Diameter of a simulated particle over that of an original one; each "
+      "simulated particle stands for scale^3 original ones [-].");
     prm.add_parameter("density", density, "Density of the solid [kg/m^3].");
     prm.add_parameter(
-        "gravity", gravity, "Acceleration of gravity, downwards along the axis [m/s^2].");
+      "gravity", gravity, "Acceleration of gravity, downwards along the axis [m/s^2].");
     prm.leave_subsection();
   }
 
-  void ParticleParameters::check(const Cylinder &cylinder) const
+  void
+  ParticleParameters::check(const Cylinder &cylinder) const
   {
     require(diameter > 0.,
             "Particles/diameter",
@@ -78,21 +84,21 @@ namespace graupel
             "Particles/scale",
             "scaled particles are larger than the original ones: choose 1 or more");
     require(
-        density > 0., "Particles/density", "a solid needs a positive density, in kg/m^3");
+      density > 0., "Particles/density", "a solid needs a positive density, in kg/m^3");
     require(gravity >= 0.,
             "Particles/gravity",
             "gravity points downwards already; its size cannot be negative");
-    require(2. * scale * diameter < cylinder.diameter &&
-                scale * diameter < cylinder.height,
-            "Particles/diameter",
-            "the simulated diameter " + number(scale * diameter) +
-                " m does not go twice into the cylinder's diameter " +
-                number(cylinder.diameter) + " m and once into its height " +
-                number(cylinder.height) +
-                " m: no bed fits. Lengths are in metres; is Particles/scale too large?");
+    require(
+      2. * scale * diameter < cylinder.diameter && scale * diameter < cylinder.height,
+      "Particles/diameter",
+      "the simulated diameter " + number(scale * diameter) +
+        " m does not go twice into the cylinder's diameter " + number(cylinder.diameter) +
+        " m and once into its height " + number(cylinder.height) +
+        " m: no bed fits. Lengths are in metres; is Particles/scale too large?");
   }
 
-  void ContactParameters::declare(dealii::ParameterHandler &prm)
+  void
+  ContactParameters::declare(dealii::ParameterHandler &prm)
   {
     prm.enter_subsection("Contact");
     declare_laws(prm);
@@ -101,25 +107,26 @@ namespace graupel
     prm.leave_subsection();
   }
 
-  void ContactParameters::declare_laws(dealii::ParameterHandler &prm)
+  void
+  ContactParameters::declare_laws(dealii::ParameterHandler &prm)
   {
     prm.add_parameter(
-        "model",
-        model,
-        "Law of the normal and tangential force: hertz-mindlin (elastic spheres) "
-        "or linear-spring.",
-        Selection("hertz-mindlin|linear-spring"));
+      "model",
+      model,
+      "Law of the normal and tangential force: hertz-mindlin (elastic spheres) "
+      "or linear-spring.",
+      Selection("hertz-mindlin|linear-spring"));
     prm.add_parameter(
-        "rolling model",
-        rolling_model,
-        "Law of the resistance to rolling: spring-dashpot (an elastic-plastic "
-        "rolling spring, no viscous part), constant-torque, or none.",
-        Selection("spring-dashpot|constant-torque|none"));
+      "rolling model",
+      rolling_model,
+      "Law of the resistance to rolling: spring-dashpot (an elastic-plastic "
+      "rolling spring, no viscous part), constant-torque, or none.",
+      Selection("spring-dashpot|constant-torque|none"));
     prm.add_parameter(
-        "particle Young's modulus",
-        particle_elasticity.young_modulus,
-        "Young's modulus of the particles, usually reduced far below that of the "
-        "real solid so that substeps are longer [Pa].");
+      "particle Young's modulus",
+      particle_elasticity.young_modulus,
+      "Young's modulus of the particles, usually reduced far below that of the "
+      "real solid so that substeps are longer [Pa].");
     prm.add_parameter("particle Poisson's ratio",
                       particle_elasticity.poisson_ratio,
                       "Poisson's ratio of the particles [-].");
@@ -137,7 +144,8 @@ namespace graupel
                       "Tangential over normal stiffness of the linear-spring model [-].");
   }
 
-  void ContactParameters::declare_surfaces(dealii::ParameterHandler &prm)
+  void
+  ContactParameters::declare_surfaces(dealii::ParameterHandler &prm)
   {
     prm.add_parameter("particle restitution",
                       particle_surface.restitution,
@@ -146,84 +154,85 @@ namespace graupel
                       particle_surface.friction,
                       "Coefficient of friction between particles while fluid flows [-].");
     prm.add_parameter(
-        "particle rolling resistance",
-        particle_surface.rolling_resistance,
-        "Coefficient of rolling resistance between particles while fluid flows [-].");
+      "particle rolling resistance",
+      particle_surface.rolling_resistance,
+      "Coefficient of rolling resistance between particles while fluid flows [-].");
     prm.add_parameter("wall restitution",
                       wall_surface.restitution,
                       "Coefficient of restitution between particle and wall [-].");
     prm.add_parameter(
-        "wall friction",
-        wall_surface.friction,
-        "Coefficient of friction between particle and wall while fluid flows [-].");
+      "wall friction",
+      wall_surface.friction,
+      "Coefficient of friction between particle and wall while fluid flows [-].");
     prm.add_parameter(
-        "wall rolling resistance",
-        wall_surface.rolling_resistance,
-        "Coefficient of rolling resistance between particle and wall while fluid "
-        "flows [-].");
+      "wall rolling resistance",
+      wall_surface.rolling_resistance,
+      "Coefficient of rolling resistance between particle and wall while fluid "
+      "flows [-].");
     prm.add_parameter(
-        "packing particle friction",
-        packing_particle_friction,
-        "Coefficient of friction between particles while the bed is filled and "
-        "settles; it decides how dense the bed becomes [-].");
+      "packing particle friction",
+      packing_particle_friction,
+      "Coefficient of friction between particles while the bed is filled and "
+      "settles; it decides how dense the bed becomes [-].");
     prm.add_parameter(
-        "packing particle rolling resistance",
-        packing_particle_rolling,
-        "Coefficient of rolling resistance between particles while the bed is "
-        "filled and settles [-].");
+      "packing particle rolling resistance",
+      packing_particle_rolling,
+      "Coefficient of rolling resistance between particles while the bed is "
+      "filled and settles [-].");
     prm.add_parameter(
-        "packing wall friction",
-        packing_wall_friction,
-        "Coefficient of friction between particle and wall while the bed is filled "
-        "and settles [-].");
+      "packing wall friction",
+      packing_wall_friction,
+      "Coefficient of friction between particle and wall while the bed is filled "
+      "and settles [-].");
     prm.add_parameter(
-        "packing wall rolling resistance",
-        packing_wall_rolling,
-        "Coefficient of rolling resistance between particle and wall while the bed "
-        "is filled and settles [-].");
+      "packing wall rolling resistance",
+      packing_wall_rolling,
+      "Coefficient of rolling resistance between particle and wall while the bed "
+      "is filled and settles [-].");
   }
 
-  void ContactParameters::declare_steps(dealii::ParameterHandler &prm)
+  void
+  ContactParameters::declare_steps(dealii::ParameterHandler &prm)
   {
     prm.add_parameter(
-        "time fraction",
-        time_fraction,
-        "Substep as a fraction of the Rayleigh time, or of sqrt(m/k)/4 for the "
-        "linear-spring model, whose impacts last 9 of these [-].");
+      "time fraction",
+      time_fraction,
+      "Substep as a fraction of the Rayleigh time, or of sqrt(m/k)/4 for the "
+      "linear-spring model, whose impacts last 9 of these [-].");
     prm.add_parameter(
-        "substep",
-        substep,
-        "Substep of the particles; zero takes it from the time fraction [s].");
+      "substep",
+      substep,
+      "Substep of the particles; zero takes it from the time fraction [s].");
     prm.add_parameter(
-        "skin",
-        skin,
-        "Distance beyond touching up to which neighbours are listed, in particle "
-        "diameters; a wider skin needs fewer, longer lists [-].");
+      "skin",
+      skin,
+      "Distance beyond touching up to which neighbours are listed, in particle "
+      "diameters; a wider skin needs fewer, longer lists [-].");
   }
 
-  void ContactParameters::check() const
+  void
+  ContactParameters::check() const
   {
     check_elasticity(particle_elasticity, "particle");
     check_elasticity(wall_elasticity, "wall");
     check_surface(particle_surface, "particle");
     check_surface(wall_surface, "wall");
     check_friction(
-        packing_particle_friction, packing_particle_rolling, "packing particle");
+      packing_particle_friction, packing_particle_rolling, "packing particle");
     check_friction(packing_wall_friction, packing_wall_rolling, "packing wall");
     require(normal_stiffness > 0.,
             "Contact/normal stiffness",
             "a spring needs a positive stiffness, in N/m");
     require(
-        stiffness_ratio > 0. && stiffness_ratio <= 1.,
-        "Contact/stiffness ratio",
-        "the tangential spring is the softer one: choose between 0 and 1, 2/7 is usual");
+      stiffness_ratio > 0. && stiffness_ratio <= 1.,
+      "Contact/stiffness ratio",
+      "the tangential spring is the softer one: choose between 0 and 1, 2/7 is usual");
     require(time_fraction > 0. && time_fraction <= DemParameters::largest_time_fraction,
             "Contact/time fraction",
             "contacts are integrated stably and accurately up to a fraction of " +
-                number(DemParameters::largest_time_fraction) + "; 0.2 is usual");
-    require(substep >= 0.,
-            "Contact/substep",
-            "a step forward in time is positive, in seconds");
+              number(DemParameters::largest_time_fraction) + "; 0.2 is usual");
+    require(
+      substep >= 0., "Contact/substep", "a step forward in time is positive, in seconds");
     require(skin > 0. && skin <= 2.,
             "Contact/skin",
             "without a skin the neighbour list is old at once, with a wide one it holds "
@@ -231,41 +240,45 @@ namespace graupel
             "bed; choose 0.2 to 0.3");
   }
 
-  void DemParameters::declare(dealii::ParameterHandler &prm)
+  void
+  DemParameters::declare(dealii::ParameterHandler &prm)
   {
     particles.declare(prm);
     contact.declare(prm);
   }
 
-  void DemParameters::check(const Cylinder &cylinder) const
+  void
+  DemParameters::check(const Cylinder &cylinder) const
   {
     particles.check(cylinder);
     contact.check();
     const double longest = largest_time_fraction * characteristic_time();
-    require(
-        contact.substep <= longest,
-        "Contact/substep",
-        "the contacts are unstable or inaccurate above " + number(longest) + " s, " +
-            number(largest_time_fraction) + " of the characteristic time " +
-            number(characteristic_time()) +
-            " s; choose a shorter substep (zero for the default) or a softer material");
+    require(contact.substep <= longest,
+            "Contact/substep",
+            "the contacts are unstable or inaccurate above " + number(longest) + " s, " +
+              number(largest_time_fraction) + " of the characteristic time " +
+              number(characteristic_time()) +
+              " s; choose a shorter substep (zero for the default) or a softer material");
   }
 
-  double DemParameters::characteristic_time() const
+  double
+  DemParameters::characteristic_time() const
   {
     if (contact.model == "linear-spring")
       return 0.25 * std::sqrt(particles.simulated_mass() / contact.normal_stiffness);
     return rayleigh_time(
-        particles.simulated_radius(), particles.density, contact.particle_elasticity);
+      particles.simulated_radius(), particles.density, contact.particle_elasticity);
   }
 
-  double DemParameters::substep() const
+  double
+  DemParameters::substep() const
   {
     return contact.substep > 0. ? contact.substep
                                 : contact.time_fraction * characteristic_time();
   }
 
-  double DemParameters::reference_force() const
+  double
+  DemParameters::reference_force() const
   {
     const double r       = particles.simulated_radius();
     const double overlap = 0.1 * r;
@@ -274,22 +287,25 @@ namespace graupel
     return 4. / 3. * particle_pair(false).young * std::sqrt(0.5 * r * overlap) * overlap;
   }
 
-  double DemParameters::overlap_under(const double force) const
+  double
+  DemParameters::overlap_under(const double force) const
   {
     if (contact.model == "linear-spring")
       return force / contact.normal_stiffness;
     return hertz_overlap(
-        force, particle_pair(false).young, 0.5 * particles.simulated_radius());
+      force, particle_pair(false).young, 0.5 * particles.simulated_radius());
   }
 
-  NormalLaws DemParameters::normal_law() const
+  NormalLaws
+  DemParameters::normal_law() const
   {
     if (contact.model == "linear-spring")
       return LinearSpring{};
     return HertzMindlin{};
   }
 
-  RollingLaws DemParameters::rolling_law() const
+  RollingLaws
+  DemParameters::rolling_law() const
   {
     if (contact.rolling_model == "none")
       return FreeRolling{};
@@ -298,13 +314,14 @@ namespace graupel
     return SpringRolling{};
   }
 
-  PairMaterial DemParameters::particle_pair(const bool packing) const
+  PairMaterial
+  DemParameters::particle_pair(const bool packing) const
   {
     Surface surface = contact.particle_surface;
     if (packing)
-      surface = { surface.restitution,
-                  contact.packing_particle_friction,
-                  contact.packing_particle_rolling };
+      surface = {surface.restitution,
+                 contact.packing_particle_friction,
+                 contact.packing_particle_rolling};
     return PairMaterial(contact.particle_elasticity,
                         contact.particle_elasticity,
                         surface,
@@ -312,13 +329,13 @@ namespace graupel
                         contact.stiffness_ratio);
   }
 
-  PairMaterial DemParameters::wall_pair(const bool packing) const
+  PairMaterial
+  DemParameters::wall_pair(const bool packing) const
   {
     Surface surface = contact.wall_surface;
     if (packing)
-      surface = { surface.restitution,
-                  contact.packing_wall_friction,
-                  contact.packing_wall_rolling };
+      surface = {
+        surface.restitution, contact.packing_wall_friction, contact.packing_wall_rolling};
     return PairMaterial(contact.particle_elasticity,
                         contact.wall_elasticity,
                         surface,

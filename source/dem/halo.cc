@@ -14,15 +14,14 @@ namespace graupel
   } // namespace
 
   Halo::Halo(const Cylinder &cylinder, const double reach, MPI_Comm communicator)
-      : communicator(communicator)
-      , n_ranks(dealii::Utilities::MPI::n_mpi_processes(communicator))
-      , corner(-cylinder.diameter / 2., -cylinder.diameter / 2., 0.)
-      , bin_size(reach)
-      , n_bins{}
+    : communicator(communicator)
+    , n_ranks(dealii::Utilities::MPI::n_mpi_processes(communicator))
+    , corner(-cylinder.diameter / 2., -cylinder.diameter / 2., 0.)
+    , bin_size(reach)
+    , n_bins{}
   {
     const std::array<double, 3> extent{
-      { cylinder.diameter, cylinder.diameter, cylinder.height }
-    };
+      {cylinder.diameter, cylinder.diameter, cylinder.height}};
     for (unsigned int d = 0; d < 3; ++d)
       n_bins[d] = static_cast<unsigned int>(std::ceil(extent[d] / bin_size));
   }
@@ -32,34 +31,37 @@ namespace graupel
     free_requests();
   }
 
-  unsigned int Halo::bin(const dealii::Point<3> &x) const
+  unsigned int
+  Halo::bin(const dealii::Point<3> &x) const
   {
     // Points outside the box count to its outermost bins, which keeps
     // neighbours neighbours.
     std::array<unsigned int, 3> b;
     for (unsigned int d = 0; d < 3; ++d)
       b[d] = static_cast<unsigned int>(
-          std::clamp(std::floor((x[d] - corner[d]) / bin_size), 0., n_bins[d] - 1.));
+        std::clamp(std::floor((x[d] - corner[d]) / bin_size), 0., n_bins[d] - 1.));
     return (b[2] * n_bins[1] + b[1]) * n_bins[0] + b[0];
   }
 
-  std::vector<unsigned char> Halo::occupied_bins(const ParticleArrays &particles) const
+  std::vector<unsigned char>
+  Halo::occupied_bins(const ParticleArrays &particles) const
   {
-    const unsigned int n = n_bins[0] * n_bins[1] * n_bins[2];
+    const unsigned int         n = n_bins[0] * n_bins[1] * n_bins[2];
     std::vector<unsigned char> mine(n, 0), all(n * n_ranks);
     for (unsigned int i = 0; i < particles.n_owned; ++i)
       mine[bin(particles.position[i])] = 1;
     const int ierr =
-        MPI_Allgather(mine.data(), n, MPI_BYTE, all.data(), n, MPI_BYTE, communicator);
+      MPI_Allgather(mine.data(), n, MPI_BYTE, all.data(), n, MPI_BYTE, communicator);
     AssertThrowMPI(ierr);
     return all;
   }
 
-  void Halo::choose_rows(const ParticleArrays &particles)
+  void
+  Halo::choose_rows(const ParticleArrays &particles)
   {
-    const auto occupied  = occupied_bins(particles);
-    const unsigned int n = n_bins[0] * n_bins[1] * n_bins[2];
-    const int me         = dealii::Utilities::MPI::this_mpi_process(communicator);
+    const auto         occupied = occupied_bins(particles);
+    const unsigned int n        = n_bins[0] * n_bins[1] * n_bins[2];
+    const int          me       = dealii::Utilities::MPI::this_mpi_process(communicator);
 
     neighbors.clear();
     std::vector<unsigned char> near(n);
@@ -91,13 +93,14 @@ namespace graupel
       }
   }
 
-  void Halo::exchange_identities(ParticleArrays &particles, const double density)
+  void
+  Halo::exchange_identities(ParticleArrays &particles, const double density)
   {
     std::vector<int> n_sent(n_ranks, 0), n_received(n_ranks, 0);
     for (const auto &neighbor : neighbors)
       n_sent[neighbor.rank] = neighbor.rows.size();
     int ierr = MPI_Alltoall(
-        n_sent.data(), 1, MPI_INT, n_received.data(), 1, MPI_INT, communicator);
+      n_sent.data(), 1, MPI_INT, n_received.data(), 1, MPI_INT, communicator);
     AssertThrowMPI(ierr);
 
     unsigned int n_rows = particles.n_owned;
@@ -141,7 +144,8 @@ namespace graupel
       }
   }
 
-  void Halo::rebuild(ParticleArrays &particles, const double density)
+  void
+  Halo::rebuild(ParticleArrays &particles, const double density)
   {
     if (n_ranks == 1)
       return;
@@ -159,14 +163,15 @@ namespace graupel
     refresh(particles);
   }
 
-  void Halo::start_requests()
+  void
+  Halo::start_requests()
   {
     for (auto &neighbor : neighbors)
       {
         neighbor.outgoing.resize(n_numbers * neighbor.rows.size());
         neighbor.incoming.resize(n_numbers * neighbor.n_ghosts);
         MPI_Request send, receive;
-        int ierr = MPI_Recv_init(neighbor.incoming.data(),
+        int         ierr = MPI_Recv_init(neighbor.incoming.data(),
                                  neighbor.incoming.size(),
                                  MPI_DOUBLE,
                                  neighbor.rank,
@@ -187,14 +192,16 @@ namespace graupel
       }
   }
 
-  void Halo::free_requests()
+  void
+  Halo::free_requests()
   {
     for (auto &request : requests)
       MPI_Request_free(&request);
     requests.clear();
   }
 
-  void Halo::refresh(ParticleArrays &p)
+  void
+  Halo::refresh(ParticleArrays &p)
   {
     if (requests.empty())
       return;
@@ -203,11 +210,11 @@ namespace graupel
         double *out = neighbor.outgoing.data();
         for (const unsigned int i : neighbor.rows)
           for (const dealii::Tensor<1, 3> *vector :
-               std::initializer_list<const dealii::Tensor<1, 3> *>{ &p.position[i],
-                                                                    &p.velocity[i],
-                                                                    &p.spin[i],
-                                                                    &p.drift[i],
-                                                                    &p.spin_drift[i] })
+               std::initializer_list<const dealii::Tensor<1, 3> *>{&p.position[i],
+                                                                   &p.velocity[i],
+                                                                   &p.spin[i],
+                                                                   &p.drift[i],
+                                                                   &p.spin_drift[i]})
             for (unsigned int d = 0; d < 3; ++d)
               *out++ = (*vector)[d];
       }
@@ -222,11 +229,11 @@ namespace graupel
              i < neighbor.first_ghost + neighbor.n_ghosts;
              ++i)
           for (dealii::Tensor<1, 3> *vector :
-               std::initializer_list<dealii::Tensor<1, 3> *>{ &p.position[i],
-                                                              &p.velocity[i],
-                                                              &p.spin[i],
-                                                              &p.drift[i],
-                                                              &p.spin_drift[i] })
+               std::initializer_list<dealii::Tensor<1, 3> *>{&p.position[i],
+                                                             &p.velocity[i],
+                                                             &p.spin[i],
+                                                             &p.drift[i],
+                                                             &p.spin_drift[i]})
             for (unsigned int d = 0; d < 3; ++d)
               (*vector)[d] = *in++;
       }

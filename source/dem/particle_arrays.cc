@@ -4,7 +4,8 @@
 
 namespace graupel
 {
-  void ParticleArrays::resize(const unsigned int n_rows)
+  void
+  ParticleArrays::resize(const unsigned int n_rows)
   {
     id.resize(n_rows);
     radius.resize(n_rows);
@@ -12,7 +13,7 @@ namespace graupel
     inertia.resize(n_rows);
     position.resize(n_rows);
     for (auto *vectors :
-         { &velocity, &spin, &drift, &spin_drift, &force, &torque, &external_force })
+         {&velocity, &spin, &drift, &spin_drift, &force, &torque, &external_force})
       vectors->resize(n_rows);
   }
 
@@ -24,7 +25,8 @@ namespace graupel
     inertia[row] = 0.4 * mass[row] * r * r;
   }
 
-  double sphere_volume(const double radius)
+  double
+  sphere_volume(const double radius)
   {
     return 4. / 3. * dealii::numbers::PI * radius * radius * radius;
   }

@@ -26,41 +26,43 @@ namespace graupel
     // mapping's inverse [-].
     constexpr double unit_cell_tolerance = 1e-7;
 
-    void put(double *numbers, const dealii::Tensor<1, 3> &vector)
+    void
+    put(double *numbers, const dealii::Tensor<1, 3> &vector)
     {
       for (unsigned int d = 0; d < 3; ++d)
         numbers[d] = vector[d];
     }
 
-    dealii::Tensor<1, 3> get(const double *numbers)
+    dealii::Tensor<1, 3>
+    get(const double *numbers)
     {
-      return dealii::Tensor<1, 3>({ numbers[0], numbers[1], numbers[2] });
+      return dealii::Tensor<1, 3>({numbers[0], numbers[1], numbers[2]});
     }
   } // namespace
 
   ParticleStore::ParticleStore(const CylinderMesh &mesh, const double density)
-      : mesh(mesh)
-      , density(density)
-      , cache(mesh.triangulation(), mesh.mapping())
-      , handler(mesh.triangulation(), mesh.mapping(), n_properties)
+    : mesh(mesh)
+    , density(density)
+    , cache(mesh.triangulation(), mesh.mapping())
+    , handler(mesh.triangulation(), mesh.mapping(), n_properties)
   {
     handler.signals.particle_lost.connect(
-        [this](const dealii::Particles::ParticleIterator<3> &particle,
-               const CellIterator &) {
-          const auto properties = particle->get_properties();
-          strays.push_back({ particle->get_id(),
-                             particle->get_location(),
-                             std::vector<double>(properties.begin(), properties.end()) });
-        });
+      [this](const dealii::Particles::ParticleIterator<3> &particle,
+             const CellIterator &) {
+        const auto properties = particle->get_properties();
+        strays.push_back({particle->get_id(),
+                          particle->get_location(),
+                          std::vector<double>(properties.begin(), properties.end())});
+      });
   }
 
-  ParticleStore::Location ParticleStore::locate(const dealii::Point<3> &point,
-                                                const double reach) const
+  ParticleStore::Location
+  ParticleStore::locate(const dealii::Point<3> &point, const double reach) const
   {
     // The boxes are those of the vertices, and a curved cell bulges out of its
     // own, so look in the boxes of the surroundings too.
-    namespace bgi     = boost::geometry::index;
-    const auto &boxes = cache.get_locally_owned_cell_bounding_boxes_rtree();
+    namespace bgi                = boost::geometry::index;
+    const auto            &boxes = cache.get_locally_owned_cell_bounding_boxes_rtree();
     dealii::BoundingBox<3> around(std::make_pair(point, point));
     around.extend(reach);
 
@@ -70,7 +72,7 @@ namespace graupel
         {
           location.cell = box->second;
           location.reference =
-              mesh.mapping().transform_real_to_unit_cell(location.cell, point);
+            mesh.mapping().transform_real_to_unit_cell(location.cell, point);
           if (dealii::GeometryInfo<3>::is_inside_unit_cell(location.reference,
                                                            unit_cell_tolerance))
             {
@@ -85,15 +87,16 @@ namespace graupel
     return location;
   }
 
-  std::vector<bool> ParticleStore::place(const std::vector<Traveller> &travellers)
+  std::vector<bool>
+  ParticleStore::place(const std::vector<Traveller> &travellers)
   {
     namespace mpi             = dealii::Utilities::MPI;
     const unsigned int me     = mpi::this_mpi_process(communicator());
     const unsigned int nobody = mpi::n_mpi_processes(communicator());
-    const double reach        = 0.5 * mesh.smallest_edge();
-    const std::size_t n       = travellers.size();
+    const double       reach  = 0.5 * mesh.smallest_edge();
+    const std::size_t  n      = travellers.size();
 
-    std::vector<Location> locations(n);
+    std::vector<Location>     locations(n);
     std::vector<unsigned int> claims(n), owners(n);
     for (std::size_t k = 0; k < n; ++k)
       {
@@ -117,9 +120,10 @@ namespace graupel
     return placed;
   }
 
-  void ParticleStore::insert(const std::vector<dealii::Point<3>> &positions,
-                             const double sphere_radius,
-                             const dealii::Tensor<1, 3> &start_velocity)
+  void
+  ParticleStore::insert(const std::vector<dealii::Point<3>> &positions,
+                        const double                         sphere_radius,
+                        const dealii::Tensor<1, 3>          &start_velocity)
   {
     std::vector<double> properties(n_properties, 0.);
     properties[radius] = sphere_radius;
@@ -127,7 +131,7 @@ namespace graupel
 
     std::vector<Traveller> travellers;
     for (const auto &position : positions)
-      travellers.push_back({ next_id++, position, properties });
+      travellers.push_back({next_id++, position, properties});
     const auto placed = place(travellers);
     for (std::size_t k = 0; k < placed.size(); ++k)
       if (!placed[k])
@@ -141,7 +145,8 @@ namespace graupel
     check_count();
   }
 
-  void ParticleStore::migrate()
+  void
+  ParticleStore::migrate()
   {
     strays.clear();
     handler.sort_particles_into_subdomains_and_cells();
@@ -149,7 +154,8 @@ namespace graupel
     check_count();
   }
 
-  void ParticleStore::bring_home_strays()
+  void
+  ParticleStore::bring_home_strays()
   {
     // deal.II gives up a particle that lies, within rounding, on the face of two
     // cells, or that went further than the cells next to its own.
@@ -172,7 +178,8 @@ namespace graupel
         }
   }
 
-  void ParticleStore::check_count() const
+  void
+  ParticleStore::check_count() const
   {
     namespace mpi = dealii::Utilities::MPI;
     if (mpi::sum(static_cast<unsigned int>(handler.n_locally_owned_particles()),
@@ -197,10 +204,10 @@ namespace graupel
         {
           std::ostringstream text;
           text
-              << "particle " << id << " was " << (copies[id] == 0 ? "lost" : "doubled")
-              << " on its way to another rank; it came from (" << position
-              << ") m. It moved too far between two migrations: try a smaller substep or "
-                 "larger cells";
+            << "particle " << id << " was " << (copies[id] == 0 ? "lost" : "doubled")
+            << " on its way to another rank; it came from (" << position
+            << ") m. It moved too far between two migrations: try a smaller substep or "
+               "larger cells";
           message = text.str();
         }
     throw_together(message, communicator());
@@ -208,7 +215,8 @@ namespace graupel
                    " is missing");
   }
 
-  void ParticleStore::gather(ParticleArrays &p, SpringTable &table)
+  void
+  ParticleStore::gather(ParticleArrays &p, SpringTable &table)
   {
     const unsigned int n = handler.n_locally_owned_particles();
     p.n_owned            = n;
@@ -221,7 +229,7 @@ namespace graupel
       {
         if (!cell->is_locally_owned() || handler.n_particles_in_cell(cell) == 0)
           continue;
-        cells.push_back({ cell, row, {} });
+        cells.push_back({cell, row, {}});
         for (const auto &particle : handler.particles_in_cell(cell))
           {
             const auto properties = particle.get_properties();
@@ -240,7 +248,8 @@ namespace graupel
       }
   }
 
-  void ParticleStore::scatter(const ParticleArrays &p, const SpringTable &table)
+  void
+  ParticleStore::scatter(const ParticleArrays &p, const SpringTable &table)
   {
     last_places.clear();
     unsigned int row = 0;
@@ -261,7 +270,8 @@ namespace graupel
         }
   }
 
-  void ParticleStore::visit_cells(const CellVisitor &visit) const
+  void
+  ParticleStore::visit_cells(const CellVisitor &visit) const
   {
     for (const auto &cell_rows : cells)
       visit(cell_rows.cell, cell_rows.first_row, cell_rows.reference_locations);

@@ -20,33 +20,35 @@ namespace graupel
     constexpr double most_amplitude  = 4.;
   } // namespace
 
-  void SettlingParameters::declare(dealii::ParameterHandler &prm)
+  void
+  SettlingParameters::declare(dealii::ParameterHandler &prm)
   {
     prm.enter_subsection("Settling");
     prm.add_parameter(
-        "kinetic energy",
-        kinetic_energy,
-        "Mean kinetic energy per particle below which the bed is at rest, if the "
-        "speed is low as well [J].");
+      "kinetic energy",
+      kinetic_energy,
+      "Mean kinetic energy per particle below which the bed is at rest, if the "
+      "speed is low as well [J].");
     prm.add_parameter(
-        "speed",
-        speed,
-        "Speed of the fastest particle below which the bed is at rest, if the "
-        "kinetic energy is low as well [m/s].");
+      "speed",
+      speed,
+      "Speed of the fastest particle below which the bed is at rest, if the "
+      "kinetic energy is low as well [m/s].");
     prm.add_parameter(
-        "interval", interval, "Time between two looks at whether the bed rests [s].");
+      "interval", interval, "Time between two looks at whether the bed rests [s].");
     prm.add_parameter("maximum time",
                       maximum_time,
                       "Simulated time after which settling is given up [s].");
     prm.add_parameter(
-        "target void fraction",
-        target_void_fraction,
-        "Mean void fraction that a looser bed is brought to by tapping, before the "
-        "friction of the flow returns; 0 to take the bed as it comes [-].");
+      "target void fraction",
+      target_void_fraction,
+      "Mean void fraction that a looser bed is brought to by tapping, before the "
+      "friction of the flow returns; 0 to take the bed as it comes [-].");
     prm.leave_subsection();
   }
 
-  void SettlingParameters::check() const
+  void
+  SettlingParameters::check() const
   {
     require(kinetic_energy > 0.,
             "Settling/kinetic energy",
@@ -59,23 +61,24 @@ namespace graupel
             "Settling/maximum time",
             "choose a time longer than Settling/interval, in seconds");
     require(
-        target_void_fraction == 0. ||
-            (target_void_fraction >= 0.36 && target_void_fraction < 1.),
-        "Settling/target void fraction",
-        "equal spheres cannot be tapped into less than about 0.36; 0 takes the bed as it "
-        "comes");
+      target_void_fraction == 0. ||
+        (target_void_fraction >= 0.36 && target_void_fraction < 1.),
+      "Settling/target void fraction",
+      "equal spheres cannot be tapped into less than about 0.36; 0 takes the bed as it "
+      "comes");
   }
 
   Settling::Settling(const SettlingParameters &parameters, Dem &dem)
-      : input(parameters)
-      , dem(dem)
-      , observables(dem.particles(), dem.cylinder(), dem.communicator())
-      , amplitude(first_amplitude)
+    : input(parameters)
+    , dem(dem)
+    , observables(dem.particles(), dem.cylinder(), dem.communicator())
+    , amplitude(first_amplitude)
   {
     dem.use_packing_materials(true);
   }
 
-  const char *Settling::activity() const
+  const char *
+  Settling::activity() const
   {
     switch (phase)
       {
@@ -91,7 +94,8 @@ namespace graupel
     return "";
   }
 
-  bool Settling::at_rest()
+  bool
+  Settling::at_rest()
   {
     dem.advance(input.interval);
     elapsed += input.interval;
@@ -99,7 +103,8 @@ namespace graupel
            dem.mean_kinetic_energy() < input.kinetic_energy;
   }
 
-  bool Settling::step()
+  bool
+  Settling::step()
   {
     switch (phase)
       {
@@ -121,7 +126,8 @@ namespace graupel
     return phase != Phase::settled;
   }
 
-  void Settling::leave_packing()
+  void
+  Settling::leave_packing()
   {
     const double before = void_fraction;
     void_fraction       = observables.bed().mean_void_fraction;
@@ -148,11 +154,12 @@ namespace graupel
     ++taps;
   }
 
-  void Settling::tap()
+  void
+  Settling::tap()
   {
     const double g = dem.parameters().particles.gravity;
     const double phi =
-        2. * dealii::numbers::PI * tap_frequency * (tap_time + 0.5 * tap_piece);
+      2. * dealii::numbers::PI * tap_frequency * (tap_time + 0.5 * tap_piece);
     dem.set_gravity(g * (1. + amplitude * std::sin(phi)));
     dem.advance(tap_piece);
     elapsed += tap_piece;
@@ -164,7 +171,8 @@ namespace graupel
       }
   }
 
-  void Settling::finish_if_too_late() const
+  void
+  Settling::finish_if_too_late() const
   {
     if (elapsed < input.maximum_time || phase == Phase::settled)
       return;

@@ -2,16 +2,18 @@
 
 namespace graupel
 {
-  void SpringTable::reset(const unsigned int n_rows)
+  void
+  SpringTable::reset(const unsigned int n_rows)
   {
     used.assign(n_rows, 0);
     partners.resize(n_rows);
     springs.resize(n_rows);
   }
 
-  bool SpringTable::add(const unsigned int row,
-                        const std::int64_t partner,
-                        const Springs &contact)
+  bool
+  SpringTable::add(const unsigned int row,
+                   const std::int64_t partner,
+                   const Springs     &contact)
   {
     const unsigned int slot = used[row];
     if (slot == n_slots)
@@ -22,8 +24,8 @@ namespace graupel
     return true;
   }
 
-  const Springs *SpringTable::find(const unsigned int row,
-                                   const std::int64_t partner) const
+  const Springs *
+  SpringTable::find(const unsigned int row, const std::int64_t partner) const
   {
     for (unsigned int slot = 0; slot < used[row]; ++slot)
       if (partners[row][slot] == partner)
@@ -31,14 +33,16 @@ namespace graupel
     return nullptr;
   }
 
-  unsigned int SpringTable::n_particle_contacts(const unsigned int row) const
+  unsigned int
+  SpringTable::n_particle_contacts(const unsigned int row) const
   {
     return std::count_if(partners[row].begin(),
                          partners[row].begin() + used[row],
                          [](const std::int64_t partner) { return partner >= 0; });
   }
 
-  void SpringTable::pack(const unsigned int row, double *numbers) const
+  void
+  SpringTable::pack(const unsigned int row, double *numbers) const
   {
     std::fill_n(numbers, n_numbers, 0.);
     for (unsigned int slot = 0; slot < used[row]; ++slot, numbers += 7)
@@ -53,13 +57,14 @@ namespace graupel
       }
   }
 
-  void SpringTable::unpack(const unsigned int row, const double *numbers)
+  void
+  SpringTable::unpack(const unsigned int row, const double *numbers)
   {
     used[row] = 0;
     for (unsigned int slot = 0; slot < n_slots && numbers[0] != 0.; ++slot, numbers += 7)
       {
         const auto stored = static_cast<std::int64_t>(numbers[0]);
-        Springs contact;
+        Springs    contact;
         for (unsigned int d = 0; d < 3; ++d)
           {
             contact.tangential[d] = numbers[1 + d];

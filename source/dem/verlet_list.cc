@@ -12,11 +12,12 @@ namespace graupel
   } // namespace
 
   VerletList::VerletList(const double skin)
-      : skin(skin)
+    : skin(skin)
   {
   }
 
-  void VerletList::build(const ParticleArrays &particles, const std::vector<Wall> &walls)
+  void
+  VerletList::build(const ParticleArrays &particles, const std::vector<Wall> &walls)
   {
     pairs.clear();
     wall_rows.assign(walls.size(), {});
@@ -24,24 +25,25 @@ namespace graupel
       return;
 
     const double largest =
-        *std::max_element(particles.radius.begin(), particles.radius.end());
+      *std::max_element(particles.radius.begin(), particles.radius.end());
     sort_into_bins(particles, 2. * largest + skin);
     find_pairs(particles);
 
     for (unsigned int w = 0; w < walls.size(); ++w)
       std::visit(
-          [&](const auto &surface) {
-            for (unsigned int i = 0; i < particles.n_owned; ++i)
-              if (surface.at(particles.position[i]).distance < particles.radius[i] + skin)
-                wall_rows[w].push_back(i);
-          },
-          walls[w].shape);
+        [&](const auto &surface) {
+          for (unsigned int i = 0; i < particles.n_owned; ++i)
+            if (surface.at(particles.position[i]).distance < particles.radius[i] + skin)
+              wall_rows[w].push_back(i);
+        },
+        walls[w].shape);
   }
 
-  void VerletList::sort_into_bins(const ParticleArrays &particles, const double bin_size)
+  void
+  VerletList::sort_into_bins(const ParticleArrays &particles, const double bin_size)
   {
-    const unsigned int n = particles.n_rows();
-    dealii::Point<3> low = particles.position[0], high = low;
+    const unsigned int n   = particles.n_rows();
+    dealii::Point<3>   low = particles.position[0], high = low;
     for (const auto &x : particles.position)
       for (unsigned int d = 0; d < 3; ++d)
         {
@@ -50,7 +52,7 @@ namespace graupel
         }
 
     const auto extent = high - low;
-    double size       = bin_size;
+    double     size   = bin_size;
     const auto count  = [&](const unsigned int d) {
       return 1. + std::floor(extent[d] / size);
     };
@@ -78,7 +80,8 @@ namespace graupel
       rows[next[bin_of_row[i]]++] = i;
   }
 
-  void VerletList::find_pairs(const ParticleArrays &particles)
+  void
+  VerletList::find_pairs(const ParticleArrays &particles)
   {
     // Both partners see each other; the lower row keeps the pair. Own rows come
     // before ghosts, so a pair of two ghosts never starts here.
@@ -105,9 +108,9 @@ namespace graupel
                       reach * reach)
                     continue;
                   if (particles.id[i] < particles.id[j])
-                    pairs.push_back({ i, j });
+                    pairs.push_back({i, j});
                   else
-                    pairs.push_back({ j, i });
+                    pairs.push_back({j, i});
                 }
             }
       }

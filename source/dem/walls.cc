@@ -2,15 +2,16 @@
 
 namespace graupel
 {
-  std::vector<Wall> vessel_walls(const Cylinder &cylinder)
+  std::vector<Wall>
+  vessel_walls(const Cylinder &cylinder)
   {
-    const dealii::Point<3> bottom(0., 0., 0.), top(0., 0., cylinder.height);
-    const dealii::Tensor<1, 3> up({ 0., 0., 1. });
+    const dealii::Point<3>     bottom(0., 0., 0.), top(0., 0., cylinder.height);
+    const dealii::Tensor<1, 3> up({0., 0., 1.});
 
     std::vector<Wall> walls(3);
-    walls[lateral_wall] = { "wall", TubeWall{ cylinder.diameter / 2. } };
-    walls[bottom_wall]  = { "bottom", PlaneWall{ bottom, -up } };
-    walls[top_wall]     = { "top", PlaneWall{ top, up } };
+    walls[lateral_wall] = {"wall", TubeWall{cylinder.diameter / 2.}};
+    walls[bottom_wall]  = {"bottom", PlaneWall{bottom, -up}};
+    walls[top_wall]     = {"top", PlaneWall{top, up}};
     return walls;
   }
 } // namespace graupel

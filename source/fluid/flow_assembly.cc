@@ -29,7 +29,8 @@ namespace graupel
   {
     matrix = 0.;
     rhs    = 0.;
-    const FlowCoefficients     coefficients{density, viscosity, scheme.now, parameters.grad_div};
+    const FlowCoefficients coefficients{
+      density, viscosity, scheme.now, parameters.grad_div};
     const unsigned int         n = unknowns_per_node * nodes_per_cell;
     dealii::FullMatrix<double> cell_matrix(n, n);
     dealii::Vector<double>     cell_rhs(n);
@@ -71,12 +72,14 @@ namespace graupel
         for (unsigned int a = 0; a < nodes_per_cell; ++a)
           for (unsigned int b = 0; b < nodes_per_cell; ++b)
             {
-              const double       mass = point.weight * point.value[a] * point.value[b];
-              const unsigned int row = unknowns_per_node * a, column = unknowns_per_node * b;
+              const double       mass   = point.weight * point.value[a] * point.value[b];
+              const unsigned int row    = unknowns_per_node * a,
+                                 column = unknowns_per_node * b;
               cell_matrix(row + 2, column + 3) -= state.void_fraction[a] * mass;
               cell_matrix(row + 3, column + 2) += mass;
               for (unsigned int i = 0; i < 3; ++i)
-                cell_matrix(row + i, column + i) += backflow * mass / state.void_fraction[b];
+                cell_matrix(row + i, column + i) +=
+                  backflow * mass / state.void_fraction[b];
             }
         distribute(point.cell);
       }
@@ -100,7 +103,7 @@ namespace graupel
         const double measure = nodes.measure().local_element(k);
         for (unsigned int i = 0; i < 3; ++i)
           {
-            unknowns[i]       = 3 * nodes.measure().get_partitioner()->local_to_global(k) + i;
+            unknowns[i] = 3 * nodes.measure().get_partitioner()->local_to_global(k) + i;
             node_matrix(i, i) = measure * medium.drag.local_element(k) /
                                 medium.void_fraction.local_element(k);
             node_rhs[i] = measure * medium.drag_source[i].local_element(k);
@@ -114,15 +117,16 @@ namespace graupel
   FlowSolver::assemble_schur(const Medium &medium)
   {
     schur = 0.;
-    const FlowCoefficients     coefficients{density, viscosity, scheme.now, parameters.grad_div};
-    dealii::FullMatrix<double> local(nodes_per_cell, nodes_per_cell);
+    const FlowCoefficients coefficients{
+      density, viscosity, scheme.now, parameters.grad_div};
+    dealii::FullMatrix<double>                   local(nodes_per_cell, nodes_per_cell);
     std::vector<dealii::types::global_dof_index> indices(nodes_per_cell);
     std::vector<double>                          conductivity(space.n_cells());
 
     const auto distribute = [&](const unsigned int cell) {
       for (unsigned int a = 0; a < nodes_per_cell; ++a)
-        indices[a] = nodes.measure().get_partitioner()->local_to_global(
-          space.cell_nodes[cell][a]);
+        indices[a] =
+          nodes.measure().get_partitioner()->local_to_global(space.cell_nodes[cell][a]);
       nodes.hanging_nodes.distribute_local_to_global(local, indices, schur);
       local = 0.;
     };
@@ -137,7 +141,8 @@ namespace graupel
             resistance += state.resistance[a] / nodes_per_cell;
             speed += state.flux[a].norm() / state.void_fraction[a] / nodes_per_cell;
           }
-        const double tau = stabilization_time(coefficients, resistance, speed, state.size);
+        const double tau =
+          stabilization_time(coefficients, resistance, speed, state.size);
         const double reaction =
           density * (scheme.now + 2. * speed / state.size) + resistance;
         conductivity[cell] = alpha * (1. / reaction + tau);
@@ -146,8 +151,8 @@ namespace graupel
             const ShapePoint &point = space.shapes[cell * space.points_per_cell + q];
             for (unsigned int a = 0; a < nodes_per_cell; ++a)
               for (unsigned int b = 0; b < nodes_per_cell; ++b)
-                local(a, b) +=
-                  point.weight * conductivity[cell] * (point.gradient[a] * point.gradient[b]);
+                local(a, b) += point.weight * conductivity[cell] *
+                               (point.gradient[a] * point.gradient[b]);
           }
         distribute(cell);
       }

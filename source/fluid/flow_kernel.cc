@@ -50,7 +50,8 @@ namespace graupel
     const double reaction   = coefficients.density * coefficients.rate + resistance;
     const double convection = 2. * coefficients.density * speed / size;
     const double diffusion  = 12. * coefficients.viscosity / (size * size);
-    return 1. / std::sqrt(reaction * reaction + convection * convection + diffusion * diffusion);
+    return 1. / std::sqrt(reaction * reaction + convection * convection +
+                          diffusion * diffusion);
   }
 
   void
@@ -64,7 +65,8 @@ namespace graupel
     const PointState here  = interpolate(coefficients, state, point);
     const double     alpha = here.void_fraction;
     const double     speed = here.flux.norm() / alpha;
-    const double tau   = stabilization_time(coefficients, here.resistance, speed, state.size);
+    const double     tau =
+      stabilization_time(coefficients, here.resistance, speed, state.size);
     const double gamma =
       coefficients.grad_div * (rho * speed * state.size + coefficients.viscosity) / alpha;
     const double mu_alpha = coefficients.viscosity * alpha;
@@ -76,10 +78,11 @@ namespace graupel
       {
         const double along = here.flux * point.gradient[b];
         const double psi   = point.value[b];
-        galerkin[b]        = rho * (coefficients.rate * psi +
-                             (along + here.flux_divergence * psi) / state.void_fraction[b]);
-        strong[b]          = galerkin[b] + state.resistance[b] * psi;
-        upwind[b]          = tau * rho * along / alpha;
+        galerkin[b] =
+          rho * (coefficients.rate * psi +
+                 (along + here.flux_divergence * psi) / state.void_fraction[b]);
+        strong[b] = galerkin[b] + state.resistance[b] * psi;
+        upwind[b] = tau * rho * along / alpha;
       }
 
     for (unsigned int a = 0; a < nodes_per_cell; ++a)
@@ -89,12 +92,13 @@ namespace graupel
         const unsigned int row    = unknowns_per_node * a;
         for (unsigned int b = 0; b < nodes_per_cell; ++b)
           {
-            const Tensor<1, 3> grad_b    = point.gradient[b];
-            const unsigned int column    = unknowns_per_node * b;
-            const double       friction  = mu_alpha / state.void_fraction[b];
-            const double       diagonal  = psi_a * galerkin[b] + upwind[a] * strong[b] +
-                                    friction * (grad_a * grad_b);
-            const double pressure_weight = state.void_fraction[a] * psi_a + upwind[a] * alpha;
+            const Tensor<1, 3> grad_b   = point.gradient[b];
+            const unsigned int column   = unknowns_per_node * b;
+            const double       friction = mu_alpha / state.void_fraction[b];
+            const double       diagonal =
+              psi_a * galerkin[b] + upwind[a] * strong[b] + friction * (grad_a * grad_b);
+            const double pressure_weight =
+              state.void_fraction[a] * psi_a + upwind[a] * alpha;
             for (unsigned int i = 0; i < 3; ++i)
               {
                 matrix(row + i, column + i) += point.weight * diagonal;
@@ -111,8 +115,7 @@ namespace graupel
 
         for (unsigned int i = 0; i < 3; ++i)
           rhs[row + i] +=
-            point.weight * (-psi_a * rho * here.history[i] +
-                            upwind[a] * here.source[i] -
+            point.weight * (-psi_a * rho * here.history[i] + upwind[a] * here.source[i] -
                             gamma * grad_a[i] * here.void_fraction_rate);
         rhs[row + 3] += point.weight * (tau * (grad_a * here.source) -
                                         psi_a * state.void_fraction_rate[a]);

@@ -8,29 +8,34 @@ namespace graupel
   {
     using dealii::Patterns::Selection;
     prm.enter_subsection("Flow solver");
-    prm.add_parameter("wall condition",
-                      wall,
-                      "What the fluid does at the lateral wall: slip or no-slip. In a bed the "
-                      "layer that a wall slows down is far thinner than a cell, so slip is the "
-                      "better choice there.",
-                      Selection("slip|no-slip"));
-    prm.add_parameter("time scheme",
-                      time_scheme,
-                      "Backward differentiation of first order (bdf1) or second order (bdf2), "
-                      "with variable steps.",
-                      Selection("bdf1|bdf2"));
-    prm.add_parameter("grad-div factor",
-                      grad_div,
-                      "Weight of the penalty on the error of the continuity equation, in units "
-                      "of density times speed times cell size; without it large time steps are "
-                      "unstable [-].");
-    prm.add_parameter("linear tolerance",
-                      linear_tolerance,
-                      "Residual at which a linear solve ends, relative to the right-hand side [-].");
-    prm.add_parameter("mass tolerance",
-                      mass_tolerance,
-                      "Largest mass imbalance of a step (in minus out minus stored) relative to "
-                      "the inflow; the linear solve goes on until it holds [-].");
+    prm.add_parameter(
+      "wall condition",
+      wall,
+      "What the fluid does at the lateral wall: slip or no-slip. In a bed the "
+      "layer that a wall slows down is far thinner than a cell, so slip is the "
+      "better choice there.",
+      Selection("slip|no-slip"));
+    prm.add_parameter(
+      "time scheme",
+      time_scheme,
+      "Backward differentiation of first order (bdf1) or second order (bdf2), "
+      "with variable steps.",
+      Selection("bdf1|bdf2"));
+    prm.add_parameter(
+      "grad-div factor",
+      grad_div,
+      "Weight of the penalty on the error of the continuity equation, in units "
+      "of density times speed times cell size; without it large time steps are "
+      "unstable [-].");
+    prm.add_parameter(
+      "linear tolerance",
+      linear_tolerance,
+      "Residual at which a linear solve ends, relative to the right-hand side [-].");
+    prm.add_parameter(
+      "mass tolerance",
+      mass_tolerance,
+      "Largest mass imbalance of a step (in minus out minus stored) relative to "
+      "the inflow; the linear solve goes on until it holds [-].");
     prm.add_parameter("maximum iterations",
                       maximum_iterations,
                       "Iterations after which a linear solve is given up [-].");
@@ -49,6 +54,7 @@ namespace graupel
     require(mass_tolerance > 0. && mass_tolerance < 1e-2,
             "Flow solver/mass tolerance",
             "the tolerance must lie between 0 and 0.01; 1e-9 is usual");
-    require(maximum_iterations >= 1, "Flow solver/maximum iterations", "must be at least 1");
+    require(
+      maximum_iterations >= 1, "Flow solver/maximum iterations", "must be at least 1");
   }
 } // namespace graupel

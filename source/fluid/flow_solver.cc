@@ -67,7 +67,7 @@ namespace graupel
     constraints.reinit(relevant);
     dealii::DoFTools::make_hanging_node_constraints(space.dof_handler, constraints);
 
-    const std::vector<bool>              flux_mask{true, true, true, false};
+    const std::vector<bool>                flux_mask{true, true, true, false};
     dealii::Functions::ConstantFunction<3> inflow(
       std::vector<double>{0., 0., superficial_velocity, 0.});
     dealii::VectorTools::interpolate_boundary_values(nodes.mesh.mapping(),
@@ -80,24 +80,23 @@ namespace graupel
       dealii::VectorTools::compute_no_normal_flux_constraints(
         space.dof_handler, 0, {CylinderMesh::wall}, constraints, nodes.mesh.mapping());
     else
-      dealii::VectorTools::interpolate_boundary_values(nodes.mesh.mapping(),
-                                                       space.dof_handler,
-                                                       CylinderMesh::wall,
-                                                       dealii::Functions::ZeroFunction<3>(
-                                                         unknowns_per_node),
-                                                       constraints,
-                                                       dealii::ComponentMask(flux_mask));
+      dealii::VectorTools::interpolate_boundary_values(
+        nodes.mesh.mapping(),
+        space.dof_handler,
+        CylinderMesh::wall,
+        dealii::Functions::ZeroFunction<3>(unknowns_per_node),
+        constraints,
+        dealii::ComponentMask(flux_mask));
     constraints.close();
   }
 
   void
   FlowSolver::prepare_matrices()
   {
-    dealii::TrilinosWrappers::BlockSparsityPattern pattern(space.owned,
-                                                           space.owned,
-                                                           space.relevant,
-                                                           nodes.mesh.communicator());
-    dealii::DoFTools::make_sparsity_pattern(space.dof_handler, pattern, constraints, false);
+    dealii::TrilinosWrappers::BlockSparsityPattern pattern(
+      space.owned, space.owned, space.relevant, nodes.mesh.communicator());
+    dealii::DoFTools::make_sparsity_pattern(
+      space.dof_handler, pattern, constraints, false);
     pattern.compress();
     matrix.reinit(pattern);
     schur.reinit(space.nodal_pattern);
@@ -118,8 +117,9 @@ namespace graupel
   {
     const CostSheet::Scope timing(costs, CostSheet::fluid);
     const bool             first = known_media == 0;
-    scheme = (parameters.time_scheme == "bdf2" && known_media >= 2) ? bdf2(step, last_step) :
-                                                                      bdf1(step);
+    scheme                       = (parameters.time_scheme == "bdf2" && known_media >= 2)
+                                     ? bdf2(step, last_step)
+                                     : bdf1(step);
     if (first)
       alpha_old = medium.void_fraction;
     alpha_rate.equ(scheme.now, medium.void_fraction);
@@ -133,8 +133,9 @@ namespace graupel
     update_ghosts(history);
 
     assemble(medium);
-    const double inflow = std::max(superficial_velocity * nodes.mesh.cylinder().cross_section(),
-                                   std::numeric_limits<double>::min());
+    const double inflow =
+      std::max(superficial_velocity * nodes.mesh.cylinder().cross_section(),
+               std::numeric_limits<double>::min());
     Report report;
     report.iterations     = solve(inflow);
     report.mass_imbalance = mass_error() / inflow;
@@ -255,8 +256,9 @@ namespace graupel
       surplus += point.weight * superficial_velocity;
     for (const auto &point : space.top)
       for (unsigned int a = 0; a < nodes_per_cell; ++a)
-        surplus -= point.weight * point.value[a] *
-                   solution.block(0)(space.cell_unknowns[point.cell][unknowns_per_node * a + 2]);
+        surplus -=
+          point.weight * point.value[a] *
+          solution.block(0)(space.cell_unknowns[point.cell][unknowns_per_node * a + 2]);
     for (unsigned int k = 0; k < alpha_rate.locally_owned_size(); ++k)
       surplus -= nodes.measure().local_element(k) * alpha_rate.local_element(k);
     return std::abs(dealii::Utilities::MPI::sum(surplus, nodes.mesh.communicator()));

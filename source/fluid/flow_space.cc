@@ -32,8 +32,9 @@ namespace graupel
     owned          = {dof_handler.locally_owned_dofs().get_view(0, sizes[0]),
                       dof_handler.locally_owned_dofs().get_view(sizes[0], end)};
     relevant       = {all.get_view(0, sizes[0]), all.get_view(sizes[0], end)};
-    AssertThrow(owned[1] == nodes.owned && owned[0].n_elements() == 3 * owned[1].n_elements(),
-                dealii::ExcMessage("The flow's nodes are not numbered as the scalar nodes are."));
+    AssertThrow(
+      owned[1] == nodes.owned && owned[0].n_elements() == 3 * owned[1].n_elements(),
+      dealii::ExcMessage("The flow's nodes are not numbered as the scalar nodes are."));
   }
 
   void
@@ -44,7 +45,7 @@ namespace graupel
                                nodes.quadrature,
                                dealii::update_values | dealii::update_gradients |
                                  dealii::update_JxW_values);
-    const auto &partitioner = *nodes.measure().get_partitioner();
+    const auto         &partitioner = *nodes.measure().get_partitioner();
     std::vector<dealii::types::global_dof_index> scalar(nodes_per_cell);
     std::vector<dealii::types::global_dof_index> unknowns(fe.n_dofs_per_cell());
     for (const auto &cell : nodes.dof_handler.active_cell_iterators())
@@ -117,11 +118,10 @@ namespace graupel
   void
   FlowSpace::assemble_gradient()
   {
-    nodal_pattern.reinit(nodes.owned, nodes.owned, nodes.relevant, nodes.mesh.communicator());
-    dealii::DoFTools::make_sparsity_pattern(nodes.dof_handler,
-                                            nodal_pattern,
-                                            nodes.hanging_nodes,
-                                            false);
+    nodal_pattern.reinit(
+      nodes.owned, nodes.owned, nodes.relevant, nodes.mesh.communicator());
+    dealii::DoFTools::make_sparsity_pattern(
+      nodes.dof_handler, nodal_pattern, nodes.hanging_nodes, false);
     nodal_pattern.compress();
 
     for (unsigned int i = 0; i < 3; ++i)
@@ -135,7 +135,8 @@ namespace graupel
               const ShapePoint &point = shapes[cell * points_per_cell + q];
               for (unsigned int a = 0; a < nodes_per_cell; ++a)
                 for (unsigned int b = 0; b < nodes_per_cell; ++b)
-                  local[cell](a, b) += point.weight * point.value[a] * point.gradient[b][i];
+                  local[cell](a, b) +=
+                    point.weight * point.value[a] * point.gradient[b][i];
             }
         if (i == 2)
           for (const FacePoint &point : top)
@@ -149,7 +150,8 @@ namespace graupel
           {
             for (unsigned int a = 0; a < nodes_per_cell; ++a)
               indices[a] = partitioner.local_to_global(cell_nodes[cell][a]);
-            nodes.hanging_nodes.distribute_local_to_global(local[cell], indices, gradient[i]);
+            nodes.hanging_nodes.distribute_local_to_global(
+              local[cell], indices, gradient[i]);
           }
         gradient[i].compress(dealii::VectorOperation::add);
       }

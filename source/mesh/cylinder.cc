@@ -16,29 +16,35 @@ namespace graupel
   {
     prm.enter_subsection("Geometry");
     prm.add_parameter("diameter", diameter, "Inner diameter of the cylinder [m].");
-    prm.add_parameter("height", height, "Height of the cylinder, from its bottom to its top [m].");
+    prm.add_parameter(
+      "height", height, "Height of the cylinder, from its bottom to its top [m].");
     prm.leave_subsection();
   }
 
   void
   Cylinder::check() const
   {
-    require(diameter > 0., "Geometry/diameter", "a vessel needs a positive diameter, in metres");
-    require(height > 0., "Geometry/height", "a vessel needs a positive height, in metres");
+    require(diameter > 0.,
+            "Geometry/diameter",
+            "a vessel needs a positive diameter, in metres");
+    require(
+      height > 0., "Geometry/height", "a vessel needs a positive height, in metres");
   }
 
   void
   MeshParameters::declare(dealii::ParameterHandler &prm)
   {
     prm.enter_subsection("Mesh");
-    prm.add_parameter("cell size",
-                      cell_size,
-                      "Edge length of the cells across the vessel that is aimed at; the mesh "
-                      "takes the nearest size that divides the cylinder evenly [m].");
-    prm.add_parameter("cell height",
-                      cell_height,
-                      "Edge length of the cells along the axis that is aimed at, where the "
-                      "surface of a bed asks for more layers; 0: as across [m].");
+    prm.add_parameter(
+      "cell size",
+      cell_size,
+      "Edge length of the cells across the vessel that is aimed at; the mesh "
+      "takes the nearest size that divides the cylinder evenly [m].");
+    prm.add_parameter(
+      "cell height",
+      cell_height,
+      "Edge length of the cells along the axis that is aimed at, where the "
+      "surface of a bed asks for more layers; 0: as across [m].");
     prm.leave_subsection();
   }
 
@@ -53,9 +59,10 @@ namespace graupel
     require(cell_height >= 0. && cell_height <= cylinder.height / 2.,
             "Mesh/cell height",
             "must lie between 0 (as Mesh/cell size) and half of Geometry/height");
-    require(cell_size >= 1e-3 * cylinder.diameter,
-            "Mesh/cell size",
-            "more than a thousand cells across the cylinder is beyond any machine; units are "
-            "metres");
+    require(
+      cell_size >= 1e-3 * cylinder.diameter,
+      "Mesh/cell size",
+      "more than a thousand cells across the cylinder is beyond any machine; units are "
+      "metres");
   }
 } // namespace graupel

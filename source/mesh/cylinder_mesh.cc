@@ -46,7 +46,8 @@ namespace graupel
       };
       for (const double cells_across : {4., 3.})
         for (unsigned int refinements = 0; refinements <= 9; ++refinements)
-          if (const CoarseDisc disc{cells_across, refinements}; misfit(disc) < misfit(best))
+          if (const CoarseDisc disc{cells_across, refinements};
+              misfit(disc) < misfit(best))
             best = disc;
       return best;
     }
@@ -55,15 +56,16 @@ namespace graupel
     // Manifold ids are set by hand, since set_all_manifold_ids_on_boundary would
     // take lines of the end caps along and invert cells.
     void
-    make_coarse_cylinder(const Cylinder             &cylinder,
-                         const CoarseDisc           &coarse,
-                         const unsigned int          layers,
-                         dealii::Triangulation<3>   &solid)
+    make_coarse_cylinder(const Cylinder           &cylinder,
+                         const CoarseDisc         &coarse,
+                         const unsigned int        layers,
+                         dealii::Triangulation<3> &solid)
     {
       dealii::Triangulation<2> disc;
       coarse.make(disc, cylinder.diameter / 2.);
       disc.set_all_manifold_ids(dealii::numbers::flat_manifold_id);
-      dealii::GridGenerator::extrude_triangulation(disc, layers + 1, cylinder.height, solid);
+      dealii::GridGenerator::extrude_triangulation(
+        disc, layers + 1, cylinder.height, solid);
       solid.set_all_manifold_ids(dealii::numbers::flat_manifold_id);
 
       for (const auto &cell : solid.active_cell_iterators())
@@ -96,7 +98,7 @@ namespace graupel
     , quadratic(2)
   {
     const CoarseDisc disc = disc_for(cylinder.diameter, parameters.cell_size);
-    const double height =
+    const double     height =
       parameters.cell_height > 0. ? parameters.cell_height : parameters.cell_size;
     const auto layers = static_cast<unsigned int>(
       std::max(1l, std::lround(cylinder.height / (height * (1u << disc.refinements)))));

@@ -18,16 +18,13 @@ namespace graupel
     hanging_nodes.reinit(relevant);
     dealii::DoFTools::make_hanging_node_constraints(dof_handler, hanging_nodes);
     hanging_nodes.close();
-    partitioner = std::make_shared<const dealii::Utilities::MPI::Partitioner>(owned,
-                                                                              relevant,
-                                                                              mesh.communicator());
+    partitioner = std::make_shared<const dealii::Utilities::MPI::Partitioner>(
+      owned, relevant, mesh.communicator());
 
     initialize(volumes);
-    dealii::FEValues<3>    values(mesh.mapping(),
-                               fe,
-                               quadrature,
-                               dealii::update_values | dealii::update_JxW_values);
-    dealii::Vector<double> cell_volumes(fe.n_dofs_per_cell());
+    dealii::FEValues<3> values(
+      mesh.mapping(), fe, quadrature, dealii::update_values | dealii::update_JxW_values);
+    dealii::Vector<double>                       cell_volumes(fe.n_dofs_per_cell());
     std::vector<dealii::types::global_dof_index> nodes(fe.n_dofs_per_cell());
     for (const auto &cell : dof_handler.active_cell_iterators())
       if (cell->is_locally_owned())

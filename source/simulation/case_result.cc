@@ -4,11 +4,14 @@
 
 namespace graupel
 {
-  SteadyMonitor::SteadyMonitor(const double window, const double tolerance, const double force_scale)
+  SteadyMonitor::SteadyMonitor(const double window,
+                               const double tolerance,
+                               const double force_scale)
     : window(window)
     , tolerance(tolerance)
     , force_scale(force_scale)
-  {}
+  {
+  }
 
   void
   SteadyMonitor::record(const MonitorRow &row)
@@ -32,7 +35,8 @@ namespace graupel
       return (*high).*column - (*low).*column;
     };
     const MonitorRow &last = rows.back();
-    return range_of(&MonitorRow::pressure_drop) <= tolerance * std::abs(last.pressure_drop) &&
+    return range_of(&MonitorRow::pressure_drop) <=
+             tolerance * std::abs(last.pressure_drop) &&
            range_of(&MonitorRow::bottom_force) <= tolerance * force_scale &&
            range_of(&MonitorRow::bed_height) <= tolerance * last.bed_height;
   }

@@ -28,9 +28,10 @@ namespace graupel
       text << std::setprecision(4) << "bed: " << bed.particle_count << " particles of "
            << bed.particle_diameter * 1e3 << " mm, height " << bed.height * 1e3
            << " mm, mean void fraction " << bed.mean_void_fraction << ", "
-           << bed.mean_coordination_number << " contacts each; bottom " << dem.bottom_force()
-           << " N + wall " << dem.wall_force() << " N = "
-           << (dem.bottom_force() + dem.wall_force()) / dem.weight() * 100. << " % of the weight";
+           << bed.mean_coordination_number << " contacts each; bottom "
+           << dem.bottom_force() << " N + wall " << dem.wall_force()
+           << " N = " << (dem.bottom_force() + dem.wall_force()) / dem.weight() * 100.
+           << " % of the weight";
       return text.str();
     }
 
@@ -38,9 +39,10 @@ namespace graupel
     describe_case(const CaseResult &result)
     {
       std::ostringstream text;
-      text << std::setprecision(4) << "V_s " << result.superficial_velocity << " m/s: "
-           << result.pressure_drop << " Pa, Ergun " << result.ergun_pressure_drop << " Pa ("
-           << std::showpos << result.deviation_from_ergun * 100. << " %, middle half "
+      text << std::setprecision(4) << "V_s " << result.superficial_velocity
+           << " m/s: " << result.pressure_drop << " Pa, Ergun "
+           << result.ergun_pressure_drop << " Pa (" << std::showpos
+           << result.deviation_from_ergun * 100. << " %, middle half "
            << result.gradient_deviation_from_ergun * 100. << " %)" << std::noshowpos
            << ", bottom force " << result.bottom_force << " N"
            << (result.fluidized ? ", the bed has lifted" : "")
@@ -119,15 +121,15 @@ namespace graupel
 
     const auto bed = observables.bed();
     summary.bed    = {dem.n_global(),
-                   parameters.simulated_diameter(),
-                   parameters.dem.particles.diameter,
-                   parameters.dem.particles.scale,
-                   dem.solid_volume(),
-                   bed.height,
-                   bed.mean_void_fraction,
-                   dem.coordination_number(),
-                   parameters.cylinder.diameter,
-                   parameters.cylinder.height};
+                      parameters.simulated_diameter(),
+                      parameters.dem.particles.diameter,
+                      parameters.dem.particles.scale,
+                      dem.solid_volume(),
+                      bed.height,
+                      bed.mean_void_fraction,
+                      dem.coordination_number(),
+                      parameters.cylinder.diameter,
+                      parameters.cylinder.height};
     progress.say(describe_bed(summary.bed, dem));
     const CostSheet::Scope timing(summary.costs, CostSheet::output);
     files.add_particles(time, dem.particles());
@@ -147,20 +149,19 @@ namespace graupel
   CaseResult
   PackedBed::run_case(const double superficial_velocity)
   {
-    const unsigned int number    = summary.cases.size() + 1;
-    const double       duration  = parameters.sweep.case_duration(superficial_velocity,
-                                                          parameters.cylinder.height);
-    const auto   n_steps   = static_cast<unsigned int>(
+    const unsigned int number = summary.cases.size() + 1;
+    const double       duration =
+      parameters.sweep.case_duration(superficial_velocity, parameters.cylinder.height);
+    const auto n_steps = static_cast<unsigned int>(
       std::ceil(duration / parameters.sweep.time_step * (1. - 1e-12)));
     const double begin = time, wall = Progress::steady_seconds(), cpu = cpu_seconds();
     std::ostringstream name;
-    name << "flow " << number << "/" << parameters.sweep.superficial_velocities.size() << ", V_s "
-         << superficial_velocity << " m/s";
+    name << "flow " << number << "/" << parameters.sweep.superficial_velocities.size()
+         << ", V_s " << superficial_velocity << " m/s";
     progress.start_phase(name.str(), 0., duration);
 
-    SteadyMonitor steady(parameters.sweep.steady_window,
-                         parameters.sweep.steady_tolerance,
-                         dem.weight());
+    SteadyMonitor steady(
+      parameters.sweep.steady_window, parameters.sweep.steady_tolerance, dem.weight());
     case_rows.clear();
     fluid.set_superficial_velocity(superficial_velocity);
     for (unsigned int step = 0; step < n_steps; ++step)
@@ -194,11 +195,9 @@ namespace graupel
   {
     dem.synchronise();
     exchange.update(dem.store(), dem.particles());
-    last_report = fluid.step(exchange.medium(), step);
-    dem.particles().external_force = exchange.forces(dem.particles(),
-                                                     fluid,
-                                                     parameters.fluid.density,
-                                                     parameters.dem.particles.gravity);
+    last_report                    = fluid.step(exchange.medium(), step);
+    dem.particles().external_force = exchange.forces(
+      dem.particles(), fluid, parameters.fluid.density, parameters.dem.particles.gravity);
     dem.advance(step);
     time += step;
     summary.ledger.record(last_report.mass_imbalance,
@@ -211,14 +210,14 @@ namespace graupel
   PackedBed::monitor(const std::string &phase) const
   {
     MonitorRow row;
-    row.time               = time;
-    row.phase              = phase;
-    row.pressure_drop      = fluid.mean_pressure(CylinderMesh::bottom) -
-                        fluid.mean_pressure(CylinderMesh::top);
-    row.bed_height         = observables.bed().height;
-    row.bottom_force       = dem.bottom_force();
-    row.wall_force         = dem.wall_force();
-    row.fluid_force        = exchange.total_force()[2] + parameters.fluid.density *
+    row.time  = time;
+    row.phase = phase;
+    row.pressure_drop =
+      fluid.mean_pressure(CylinderMesh::bottom) - fluid.mean_pressure(CylinderMesh::top);
+    row.bed_height   = observables.bed().height;
+    row.bottom_force = dem.bottom_force();
+    row.wall_force   = dem.wall_force();
+    row.fluid_force  = exchange.total_force()[2] + parameters.fluid.density *
                                                     parameters.dem.particles.gravity *
                                                     dem.solid_volume();
     row.kinetic_energy     = dem.mean_kinetic_energy();
@@ -245,44 +244,52 @@ namespace graupel
   PackedBed::evaluate(CaseResult &result, const unsigned int number)
   {
     const CostSheet::Scope timing(summary.costs, CostSheet::output);
-    const MonitorRow mean = mean_since(case_rows, time - averaged_part * result.simulated_time);
-    const auto       bed  = observables.bed();
-    const double     diameter = parameters.dem.particles.diameter;
-    const double     velocity = result.superficial_velocity;
+    const MonitorRow       mean =
+      mean_since(case_rows, time - averaged_part * result.simulated_time);
+    const auto   bed      = observables.bed();
+    const double diameter = parameters.dem.particles.diameter;
+    const double velocity = result.superficial_velocity;
 
-    result.bed_height          = bed.height;
-    result.bed_rise            = bed.height - summary.bed.height;
-    result.mean_void_fraction  = bed.mean_void_fraction;
-    result.pressure_drop       = mean.pressure_drop;
-    result.bottom_force        = mean.bottom_force;
-    result.wall_force          = mean.wall_force;
-    result.fluid_force         = mean.fluid_force;
-    result.weight              = dem.weight();
-    result.fluidized           = mean.bottom_force + mean.wall_force <= lifted_load * dem.weight();
+    result.bed_height         = bed.height;
+    result.bed_rise           = bed.height - summary.bed.height;
+    result.mean_void_fraction = bed.mean_void_fraction;
+    result.pressure_drop      = mean.pressure_drop;
+    result.bottom_force       = mean.bottom_force;
+    result.wall_force         = mean.wall_force;
+    result.fluid_force        = mean.fluid_force;
+    result.weight             = dem.weight();
+    result.fluidized = mean.bottom_force + mean.wall_force <= lifted_load * dem.weight();
     result.ergun_pressure_drop = ergun_pressure_drop(
       parameters.fluid, diameter, bed.mean_void_fraction, velocity, bed.height);
     result.deviation_from_ergun = result.pressure_drop / result.ergun_pressure_drop - 1.;
 
-    const FlowFields fields{nodes,
-                            exchange.medium().void_fraction,
-                            fluid.flux()[2],
-                            fluid.pressure()};
-    const auto   n_slabs = static_cast<unsigned int>(
+    const FlowFields fields{
+      nodes, exchange.medium().void_fraction, fluid.flux()[2], fluid.pressure()};
+    const auto n_slabs = static_cast<unsigned int>(
       std::max(10l, std::lround(parameters.cylinder.height / parameters.mesh.cell_size)));
     const auto   axial = axial_profile(fields, n_slabs);
     const double lower = 0.25 * bed.height, upper = 0.75 * bed.height;
     const double middle_void_fraction =
       1. - observables.solid_volume_between(lower, upper) /
              (parameters.cylinder.cross_section() * (upper - lower));
-    const double gradient = (pressure_at(axial, lower) - pressure_at(axial, upper)) / (upper - lower);
+    const double gradient =
+      (pressure_at(axial, lower) - pressure_at(axial, upper)) / (upper - lower);
     result.gradient_deviation_from_ergun =
-      gradient /
-        ergun_pressure_gradient(parameters.fluid, diameter, middle_void_fraction, velocity) -
+      gradient / ergun_pressure_gradient(
+                   parameters.fluid, diameter, middle_void_fraction, velocity) -
       1.;
 
     const auto radial = radial_profile(fields, parameters.output.annuli, lower, upper);
     result.wall_channelling_deviation = wall_channelling_deviation(
       radial, parameters.fluid, diameter, velocity, middle_void_fraction);
+
+    result.axial_profile_deviation =
+      axial_profile_deviation(axial,
+                              parameters.fluid,
+                              diameter,
+                              velocity,
+                              result.ergun_pressure_drop,
+                              parameters.cylinder.cross_section());
 
     files.write_axial(number, axial, result);
     files.write_radial(number, radial, parameters.cylinder.diameter / 2.);

@@ -4,7 +4,8 @@ namespace graupel
 {
   namespace
   {
-    const std::vector<std::string> vector_names{"velocity", "spin", "contact_force", "fluid_force"};
+    const std::vector<std::string> vector_names{
+      "velocity", "spin", "contact_force", "fluid_force"};
   } // namespace
 
   ParticleOutput::ParticleOutput(const ParticleArrays &particles)
@@ -17,8 +18,8 @@ namespace graupel
         patch.patch_index          = row;
         patch.points_are_available = false;
         patch.data.reinit(2 + 3 * vector_names.size(), 1);
-        patch.data(0, 0) = particles.id[row];
-        patch.data(1, 0) = 2. * particles.radius[row];
+        patch.data(0, 0)  = particles.id[row];
+        patch.data(1, 0)  = 2. * particles.radius[row];
         unsigned int next = 2;
         for (const auto *field : {&particles.velocity,
                                   &particles.spin,
@@ -44,22 +45,25 @@ namespace graupel
     return names;
   }
 
-  std::vector<std::tuple<unsigned int,
-                         unsigned int,
-                         std::string,
-                         dealii::DataComponentInterpretation::DataComponentInterpretation>>
+  std::vector<
+    std::tuple<unsigned int,
+               unsigned int,
+               std::string,
+               dealii::DataComponentInterpretation::DataComponentInterpretation>>
   ParticleOutput::get_nonscalar_data_ranges() const
   {
-    std::vector<std::tuple<unsigned int,
-                           unsigned int,
-                           std::string,
-                           dealii::DataComponentInterpretation::DataComponentInterpretation>>
+    std::vector<
+      std::tuple<unsigned int,
+                 unsigned int,
+                 std::string,
+                 dealii::DataComponentInterpretation::DataComponentInterpretation>>
       ranges;
     for (unsigned int i = 0; i < vector_names.size(); ++i)
-      ranges.emplace_back(2 + 3 * i,
-                          4 + 3 * i,
-                          vector_names[i],
-                          dealii::DataComponentInterpretation::component_is_part_of_vector);
+      ranges.emplace_back(
+        2 + 3 * i,
+        4 + 3 * i,
+        vector_names[i],
+        dealii::DataComponentInterpretation::component_is_part_of_vector);
     return ranges;
   }
 } // namespace graupel

@@ -11,7 +11,9 @@ namespace graupel
     // one that is out of range for points that belong to none.
     template <typename RegionOf>
     std::vector<RegionMean>
-    means_by_region(const FlowFields &fields, const unsigned int n_regions, const RegionOf &region_of)
+    means_by_region(const FlowFields  &fields,
+                    const unsigned int n_regions,
+                    const RegionOf    &region_of)
     {
       constexpr unsigned int n_sums = 6;
       std::vector<double>    sums(n_regions * n_sums, 0.);
@@ -74,7 +76,8 @@ namespace graupel
   {
     const double radius = fields.nodes.mesh.cylinder().diameter / 2.;
     return means_by_region(fields, n_annuli, [&](const double r, const double z) {
-      return z < from || z > to ? n_annuli : static_cast<unsigned int>(r / radius * n_annuli);
+      return z < from || z > to ? n_annuli
+                                : static_cast<unsigned int>(r / radius * n_annuli);
     });
   }
 
@@ -94,10 +97,12 @@ namespace graupel
   {
     const CylinderMesh &mesh = fields.nodes.mesh;
     // A hair inside: the mapped boundary is not exactly the circle.
-    const double       half     = mesh.cylinder().diameter / 2. * (1. - 1e-3);
-    const double       height   = mesh.cylinder().height * (1. - 1e-6);
-    const unsigned int n_along  = std::max(2l, std::lround(height / (2. * half) * n_across));
-    const bool         is_first = dealii::Utilities::MPI::this_mpi_process(mesh.communicator()) == 0;
+    const double       half   = mesh.cylinder().diameter / 2. * (1. - 1e-3);
+    const double       height = mesh.cylinder().height * (1. - 1e-6);
+    const unsigned int n_along =
+      std::max(2l, std::lround(height / (2. * half) * n_across));
+    const bool is_first =
+      dealii::Utilities::MPI::this_mpi_process(mesh.communicator()) == 0;
 
     std::vector<dealii::Point<3>> points;
     if (is_first)
@@ -110,7 +115,8 @@ namespace graupel
     dealii::Utilities::MPI::RemotePointEvaluation<3> places(1e-6);
     places.reinit(points, mesh.triangulation(), mesh.mapping());
     const auto evaluate = [&](const NodalVector &field) {
-      return dealii::VectorTools::point_values<1>(places, fields.nodes.dof_handler, field);
+      return dealii::VectorTools::point_values<1>(
+        places, fields.nodes.dof_handler, field);
     };
     const auto alpha = evaluate(fields.void_fraction), flux = evaluate(fields.flux),
                pressure = evaluate(fields.pressure);
@@ -131,8 +137,26 @@ namespace graupel
     std::vector<Channel> channels;
     for (const RegionMean &annulus : radial)
       channels.push_back({annulus.volume, annulus.void_fraction});
-    return parallel_channels_pressure_gradient(fluid, diameter, channels, superficial_velocity) /
-             ergun_pressure_gradient(fluid, diameter, mean_void_fraction, superficial_velocity) -
+    return parallel_channels_pressure_gradient(
+             fluid, diameter, channels, superficial_velocity) /
+             ergun_pressure_gradient(
+               fluid, diameter, mean_void_fraction, superficial_velocity) -
            1.;
+  }
+
+  double
+  axial_profile_deviation(const std::vector<RegionMean> &axial,
+                          const FluidProperties         &fluid,
+                          const double                   diameter,
+                          const double                   superficial_velocity,
+                          const double                   ergun_pressure_drop,
+                          const double                   cross_section)
+  {
+    double drop = 0.;
+    for (const RegionMean &slab : axial)
+      drop += slab.volume / cross_section *
+              ergun_pressure_gradient(
+                fluid, diameter, std::min(slab.void_fraction, 1.), superficial_velocity);
+    return drop / ergun_pressure_drop - 1.;
   }
 } // namespace graupel

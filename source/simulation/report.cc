@@ -21,13 +21,15 @@ namespace graupel
   make_report(const std::string &directory)
   {
     // Debian's own Python: it has Debian's matplotlib, whatever else is on the PATH.
-    const std::string command =
-      "/usr/bin/python3 " + shell_quoted(GRAUPEL_REPORT_SCRIPT) + " " + shell_quoted(directory);
+    const std::string command = "/usr/bin/python3 " +
+                                shell_quoted(GRAUPEL_REPORT_SCRIPT) + " " +
+                                shell_quoted(directory);
     if (std::system(command.c_str()) == 0)
       return true;
-    std::cerr << "The report could not be made (is python3-matplotlib installed?). The results "
-                 "are complete; make it later with\n  "
-              << command << std::endl;
+    std::cerr
+      << "The report could not be made (is python3-matplotlib installed?). The results "
+         "are complete; make it later with\n  "
+      << command << std::endl;
     return false;
   }
 } // namespace graupel

@@ -67,9 +67,10 @@ namespace graupel
       {
         log_stream = open("log.txt");
         monitors   = open("monitors.csv");
-        monitors << "time,phase,case,superficial_velocity,pressure_drop,bed_height,bottom_force,"
-                    "wall_force,fluid_force,kinetic_energy_per_particle,maximum_speed,"
-                    "mass_imbalance,momentum_imbalance,solid_volume_error,linear_iterations\n";
+        monitors
+          << "time,phase,case,superficial_velocity,pressure_drop,bed_height,bottom_force,"
+             "wall_force,fluid_force,kinetic_energy_per_particle,maximum_speed,"
+             "mass_imbalance,momentum_imbalance,solid_volume_error,linear_iterations\n";
       }
   }
 
@@ -106,11 +107,11 @@ namespace graupel
     if (!is_writer)
       return;
     monitors << row.time << ',' << row.phase << ',' << row.flow_case << ','
-             << row.superficial_velocity << ',' << row.pressure_drop << ',' << row.bed_height << ','
-             << row.bottom_force << ',' << row.wall_force << ',' << row.fluid_force << ','
-             << row.kinetic_energy << ',' << row.maximum_speed << ',' << row.mass_imbalance << ','
-             << row.momentum_imbalance << ',' << row.solid_volume_error << ','
-             << row.linear_iterations << std::endl;
+             << row.superficial_velocity << ',' << row.pressure_drop << ','
+             << row.bed_height << ',' << row.bottom_force << ',' << row.wall_force << ','
+             << row.fluid_force << ',' << row.kinetic_energy << ',' << row.maximum_speed
+             << ',' << row.mass_imbalance << ',' << row.momentum_imbalance << ','
+             << row.solid_volume_error << ',' << row.linear_iterations << std::endl;
   }
 
   void
@@ -119,18 +120,22 @@ namespace graupel
     if (!is_writer)
       return;
     auto stream = open("cases.csv");
-    stream << "superficial_velocity,pressure_drop,ergun_pressure_drop,deviation_from_ergun,"
-              "gradient_deviation_from_ergun,wall_channelling_deviation,bed_height,bed_rise,"
-              "mean_void_fraction,bottom_force,wall_force,fluid_force,weight,fluidized,steady,"
-              "simulated_time,wall_seconds,cpu_seconds\n";
+    stream
+      << "superficial_velocity,pressure_drop,ergun_pressure_drop,deviation_from_ergun,"
+         "gradient_deviation_from_ergun,wall_channelling_deviation,axial_profile_"
+         "deviation,"
+         "bed_height,bed_rise,"
+         "mean_void_fraction,bottom_force,wall_force,fluid_force,weight,fluidized,steady,"
+         "simulated_time,wall_seconds,cpu_seconds\n";
     for (const CaseResult &row : cases)
       stream << row.superficial_velocity << ',' << row.pressure_drop << ','
              << row.ergun_pressure_drop << ',' << row.deviation_from_ergun << ','
-             << row.gradient_deviation_from_ergun << ',' << row.wall_channelling_deviation << ','
-             << row.bed_height << ',' << row.bed_rise << ',' << row.mean_void_fraction << ','
-             << row.bottom_force << ',' << row.wall_force << ',' << row.fluid_force << ','
-             << row.weight << ',' << row.fluidized << ',' << row.steady << ','
-             << row.simulated_time << ',' << row.wall_seconds << ',' << row.cpu_seconds << '\n';
+             << row.gradient_deviation_from_ergun << ',' << row.wall_channelling_deviation
+             << ',' << row.axial_profile_deviation << ',' << row.bed_height << ','
+             << row.bed_rise << ',' << row.mean_void_fraction << ',' << row.bottom_force
+             << ',' << row.wall_force << ',' << row.fluid_force << ',' << row.weight
+             << ',' << row.fluidized << ',' << row.steady << ',' << row.simulated_time
+             << ',' << row.wall_seconds << ',' << row.cpu_seconds << '\n';
   }
 
   void
@@ -145,7 +150,8 @@ namespace graupel
     for (const RegionMean &slab : profile)
       stream << slab.height << ',' << slab.pressure << ',' << slab.void_fraction << ','
              << slab.flux << ','
-             << result.ergun_pressure_drop * std::max(0., 1. - slab.height / result.bed_height)
+             << result.ergun_pressure_drop *
+                  std::max(0., 1. - slab.height / result.bed_height)
              << '\n';
   }
 
@@ -159,20 +165,21 @@ namespace graupel
     auto stream = open(numbered("radial", number));
     stream << "wall_distance,void_fraction,superficial_velocity\n";
     for (const RegionMean &annulus : profile)
-      stream << radius - annulus.radius << ',' << annulus.void_fraction << ',' << annulus.flux
-             << '\n';
+      stream << radius - annulus.radius << ',' << annulus.void_fraction << ','
+             << annulus.flux << '\n';
   }
 
   void
-  ResultFiles::write_mid_plane(const unsigned int number, const std::vector<PlanePoint> &points)
+  ResultFiles::write_mid_plane(const unsigned int             number,
+                               const std::vector<PlanePoint> &points)
   {
     if (!is_writer)
       return;
     auto stream = open(numbered("midplane", number));
     stream << std::setprecision(6) << "x,z,void_fraction,superficial_velocity,pressure\n";
     for (const PlanePoint &point : points)
-      stream << point.x << ',' << point.z << ',' << point.void_fraction << ',' << point.flux << ','
-             << point.pressure << '\n';
+      stream << point.x << ',' << point.z << ',' << point.void_fraction << ','
+             << point.flux << ',' << point.pressure << '\n';
   }
 
   void
@@ -189,25 +196,21 @@ namespace graupel
     for (unsigned int i = 0; i < 3; ++i)
       output.add_data_vector(flow.flux()[i], std::string("flux_") + "xyz"[i]);
     output.build_patches(nodes.mesh.mapping());
-    field_records.emplace_back(time,
-                               "vtu/" + output.write_vtu_with_pvtu_record(directory + "/vtu/",
-                                                                          "solution",
-                                                                          field_records.size(),
-                                                                          communicator,
-                                                                          4));
+    field_records.emplace_back(
+      time,
+      "vtu/" + output.write_vtu_with_pvtu_record(
+                 directory + "/vtu/", "solution", field_records.size(), communicator, 4));
     write_records("solution.pvd", field_records);
   }
 
   void
   ResultFiles::add_particles(const double time, const ParticleArrays &particles)
   {
-    particle_records.emplace_back(time,
-                                  "vtu/" + ParticleOutput(particles).write_vtu_with_pvtu_record(
-                                             directory + "/vtu/",
-                                             "particles",
-                                             particle_records.size(),
-                                             communicator,
-                                             4));
+    particle_records.emplace_back(
+      time,
+      "vtu/" +
+        ParticleOutput(particles).write_vtu_with_pvtu_record(
+          directory + "/vtu/", "particles", particle_records.size(), communicator, 4));
     write_records("particles.pvd", particle_records);
   }
 

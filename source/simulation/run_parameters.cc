@@ -43,10 +43,11 @@ namespace graupel
     flow.check();
     sweep.check();
     output.check();
-    require(filter_length() <= cylinder.diameter,
-            "Coupling/filter length",
-            "a filter longer than the vessel's diameter would smear the bed over all of it; "
-            "one particle diameter is usual");
+    require(
+      filter_length() <= cylinder.diameter,
+      "Coupling/filter length",
+      "a filter longer than the vessel's diameter would smear the bed over all of it; "
+      "one particle diameter is usual");
   }
 
   double
@@ -67,11 +68,15 @@ namespace graupel
     const double       diameter = dem.particles.diameter;
     std::ostringstream text;
     text << std::setprecision(4);
-    const auto line = [&](const std::string &name, const auto value, const std::string &unit) {
+    const auto line = [&](const std::string &name,
+                          const auto         value,
+                          const std::string &unit) {
       text << "  " << std::left << std::setw(46) << name << value << " " << unit << '\n';
     };
     text << "Sizes\n";
-    line("vessel diameter / simulated particle", cylinder.diameter / simulated_diameter(), "-");
+    line("vessel diameter / simulated particle",
+         cylinder.diameter / simulated_diameter(),
+         "-");
     line("simulated particle diameter", simulated_diameter(), "m");
     line("filter length", filter_length(), "m");
     line("cell size aimed at", mesh.cell_size, "m");
@@ -79,7 +84,8 @@ namespace graupel
     line("characteristic (Rayleigh) time of a contact", dem.characteristic_time(), "s");
     line("substep of the particles", dem.substep(), "s");
     line("step of the fluid", sweep.time_step, "s");
-    line("substeps in a step of the fluid", std::ceil(sweep.time_step / dem.substep()), "");
+    line(
+      "substeps in a step of the fluid", std::ceil(sweep.time_step / dem.substep()), "");
 
     const double bed_height = 0.9 * cylinder.height;
     const double load       = (1. - guessed_void_fraction) * dem.particles.density *
@@ -102,9 +108,10 @@ namespace graupel
         const double gradient =
           ergun_pressure_gradient(fluid, diameter, guessed_void_fraction, velocity);
         const double weight = (1. - guessed_void_fraction) *
-                              (dem.particles.density - fluid.density) * dem.particles.gravity;
-        text << "  V_s = " << velocity << " m/s: Re = "
-             << fluid.density * velocity * diameter / fluid.viscosity
+                              (dem.particles.density - fluid.density) *
+                              dem.particles.gravity;
+        text << "  V_s = " << velocity
+             << " m/s: Re = " << fluid.density * velocity * diameter / fluid.viscosity
              << ", Ergun's gradient " << gradient << " Pa/m = " << gradient / weight
              << " of the weight, at most "
              << sweep.case_duration(velocity, cylinder.height) << " s\n";

@@ -37,6 +37,7 @@ namespace graupel
               {"deviation_from_ergun", result.deviation_from_ergun},
               {"gradient_deviation_from_ergun", result.gradient_deviation_from_ergun},
               {"wall_channelling_deviation", result.wall_channelling_deviation},
+              {"axial_profile_deviation", result.axial_profile_deviation},
               {"bed_height", result.bed_height},
               {"bed_rise", result.bed_rise},
               {"mean_void_fraction", result.mean_void_fraction},
@@ -79,7 +80,8 @@ namespace graupel
                        {"mpi_ranks", n_mpi_processes(communicator)},
                        {"parameter_file", summary.parameter_file}};
     root["bed"]     = to_json(summary.bed);
-    root["fluid"]   = {{"density", summary.fluid.density}, {"viscosity", summary.fluid.viscosity}};
+    root["fluid"]   = {{"density", summary.fluid.density},
+                       {"viscosity", summary.fluid.viscosity}};
     root["cases"]   = Json::array();
     for (const CaseResult &result : summary.cases)
       root["cases"].push_back(to_json(result));

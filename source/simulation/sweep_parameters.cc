@@ -4,36 +4,43 @@
 namespace graupel
 {
   double
-  SweepParameters::case_duration(const double superficial_velocity, const double height) const
+  SweepParameters::case_duration(const double superficial_velocity,
+                                 const double height) const
   {
-    return stop_when == "steady" ? maximum_time : flow_throughs * height / superficial_velocity;
+    return stop_when == "steady" ? maximum_time
+                                 : flow_throughs * height / superficial_velocity;
   }
 
   void
   SweepParameters::declare(dealii::ParameterHandler &prm)
   {
     prm.enter_subsection("Flow");
-    prm.add_parameter("superficial velocities",
-                      superficial_velocities,
-                      "The flow cases, one superficial velocity each, run one after the other "
-                      "on the same bed; an empty list ends the run after settling [m/s].");
-    prm.add_parameter("time step",
-                      time_step,
-                      "Step of the fluid; particles take their own smaller substeps within it "
-                      "[s].");
-    prm.add_parameter("stop when",
-                      stop_when,
-                      "When a case ends: after a number of flow-throughs (the rule of Ricklick & "
-                      "Baran), or when pressure drop, bottom force and bed height are steady.",
-                      dealii::Patterns::Selection("flow-throughs|steady"));
-    prm.add_parameter("flow-throughs",
-                      flow_throughs,
-                      "How often the superficial velocity must cross the height of the vessel: "
-                      "the case lasts n H / V_s [-].");
-    prm.add_parameter("steady tolerance",
-                      steady_tolerance,
-                      "Relative change within the steady window below which a monitor counts as "
-                      "steady [-].");
+    prm.add_parameter(
+      "superficial velocities",
+      superficial_velocities,
+      "The flow cases, one superficial velocity each, run one after the other "
+      "on the same bed; an empty list ends the run after settling [m/s].");
+    prm.add_parameter(
+      "time step",
+      time_step,
+      "Step of the fluid; particles take their own smaller substeps within it "
+      "[s].");
+    prm.add_parameter(
+      "stop when",
+      stop_when,
+      "When a case ends: after a number of flow-throughs (the rule of Ricklick & "
+      "Baran), or when pressure drop, bottom force and bed height are steady.",
+      dealii::Patterns::Selection("flow-throughs|steady"));
+    prm.add_parameter(
+      "flow-throughs",
+      flow_throughs,
+      "How often the superficial velocity must cross the height of the vessel: "
+      "the case lasts n H / V_s [-].");
+    prm.add_parameter(
+      "steady tolerance",
+      steady_tolerance,
+      "Relative change within the steady window below which a monitor counts as "
+      "steady [-].");
     prm.add_parameter("steady window",
                       steady_window,
                       "Simulated time over which the monitors are watched [s].");
@@ -47,14 +54,18 @@ namespace graupel
   SweepParameters::check() const
   {
     for (const double velocity : superficial_velocities)
-      require(velocity > 0. && std::isfinite(velocity),
-              "Flow/superficial velocities",
-              "every superficial velocity must be positive: the gas enters at the bottom");
-    require(time_step > 0. && std::isfinite(time_step),
-            "Flow/time step",
-            "the fluid needs a positive step, in seconds; 1e-3 to 5e-3 suits a packed bed");
-    require(flow_throughs > 0., "Flow/flow-throughs", "must be positive; the paper takes 2");
-    require(steady_tolerance > 0., "Flow/steady tolerance", "must be positive; 1e-3 is usual");
+      require(
+        velocity > 0. && std::isfinite(velocity),
+        "Flow/superficial velocities",
+        "every superficial velocity must be positive: the gas enters at the bottom");
+    require(
+      time_step > 0. && std::isfinite(time_step),
+      "Flow/time step",
+      "the fluid needs a positive step, in seconds; 1e-3 to 5e-3 suits a packed bed");
+    require(
+      flow_throughs > 0., "Flow/flow-throughs", "must be positive; the paper takes 2");
+    require(
+      steady_tolerance > 0., "Flow/steady tolerance", "must be positive; 1e-3 is usual");
     require(steady_window >= 2. * time_step,
             "Flow/steady window",
             "must hold at least two of Flow/time step");
@@ -69,17 +80,18 @@ namespace graupel
                       directory,
                       "Directory of the results; it is made if it does not exist.",
                       dealii::Patterns::Anything());
-    prm.add_parameter("interval",
-                      interval,
-                      "Simulated time between two sets of ParaView files, beside those at the "
-                      "end of every phase and flow case; 0 for no more than these [s].");
+    prm.add_parameter(
+      "interval",
+      interval,
+      "Simulated time between two sets of ParaView files, beside those at the "
+      "end of every phase and flow case; 0 for no more than these [s].");
     prm.add_parameter("mid-plane points",
                       midplane_points,
                       "Points across the vessel at which the mid-plane is sampled [-].");
-    prm.add_parameter("annuli",
-                      annuli,
-                      "Annuli of equal width in the radial profiles [-].");
-    prm.add_parameter("report", report, "Whether report.html is made at the end of the run.");
+    prm.add_parameter(
+      "annuli", annuli, "Annuli of equal width in the radial profiles [-].");
+    prm.add_parameter(
+      "report", report, "Whether report.html is made at the end of the run.");
     prm.leave_subsection();
   }
 

@@ -20,7 +20,7 @@ TEST(Ledger, KeepsTheWorstOfEither)
 TEST(Ledger, NaNIsLoudAndStays)
 {
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  Ledger ledger;
+  Ledger       ledger;
   ledger.record(1e-9, 1e-9, 1e-9);
   EXPECT_THROW(ledger.record(2e-9, nan, 2e-9), std::runtime_error);
   ledger.record(1e-9, 5e-9, 1e-9);
@@ -44,6 +44,6 @@ TEST(Ledger, NamesTheQuantity)
     {
       EXPECT_NE(std::string(error.what()).find("solid volume error = nan"),
                 std::string::npos)
-          << error.what();
+        << error.what();
     }
 }

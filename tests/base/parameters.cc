@@ -35,18 +35,19 @@ namespace
     }
 
     dealii::ParameterHandler handler;
-    double diameter     = 0.025;
-    unsigned int layers = 4;
-    std::string scaling = "exact";
-    double length       = 1.6e-3;
-    std::vector<double> velocities{ 0.271 };
+    double                   diameter = 0.025;
+    unsigned int             layers   = 4;
+    std::string              scaling  = "exact";
+    double                   length   = 1.6e-3;
+    std::vector<double>      velocities{0.271};
   };
 
   // What the user reads when @p text is in the file case.prm; "" if all is well.
-  std::string complaint(const std::string &text)
+  std::string
+  complaint(const std::string &text)
   {
-    Declared declared;
-    ParameterFile file(declared.handler);
+    Declared           declared;
+    ParameterFile      file(declared.handler);
     std::istringstream stream(text);
     try
       {
@@ -59,9 +60,10 @@ namespace
     return "";
   }
 
-  std::string complaint_about_override(const std::string &assignment)
+  std::string
+  complaint_about_override(const std::string &assignment)
   {
-    Declared declared;
+    Declared      declared;
     ParameterFile file(declared.handler);
     try
       {
@@ -78,8 +80,8 @@ namespace
   {
   protected:
     Files()
-        : folder(std::filesystem::temp_directory_path() /
-                 ("graupel-test-" + std::to_string(::getpid())))
+      : folder(std::filesystem::temp_directory_path() /
+               ("graupel-test-" + std::to_string(::getpid())))
     {
       std::filesystem::create_directories(folder / "parts");
     }
@@ -89,7 +91,8 @@ namespace
       std::filesystem::remove_all(folder);
     }
 
-    std::string write(const std::string &name, const std::string &text) const
+    std::string
+    write(const std::string &name, const std::string &text) const
     {
       std::ofstream(folder / name) << text;
       return (folder / name).string();
@@ -101,8 +104,8 @@ namespace
 
 TEST(ParameterFile, ReachesTheBoundMembers)
 {
-  Declared declared;
-  ParameterFile file(declared.handler);
+  Declared           declared;
+  ParameterFile      file(declared.handler);
   std::istringstream stream("# a comment\n"
                             "subsection Geometry\r\n"
                             "  set diameter = 0.05  # [m]\n"
@@ -119,7 +122,7 @@ TEST(ParameterFile, ReachesTheBoundMembers)
   EXPECT_EQ(declared.diameter, 0.05);
   EXPECT_EQ(declared.layers, 7u);
   EXPECT_EQ(declared.scaling, "none");
-  EXPECT_EQ(declared.velocities, (std::vector<double>{ 0.1, 0.2 }));
+  EXPECT_EQ(declared.velocities, (std::vector<double>{0.1, 0.2}));
   EXPECT_EQ(declared.length, 1.6e-3);
 
   file.set(" Coupling/Filter/length = 3.2e-3 ");
@@ -130,18 +133,18 @@ TEST(ParameterFile, KnowsEveryDeclaredPath)
 {
   Declared declared;
   EXPECT_EQ(ParameterFile(declared.handler).known_parameters(),
-            (std::vector<std::string>{ "Coupling/Filter/length",
-                                       "Coupling/Filter/velocities",
-                                       "Coupling/scaling",
-                                       "Geometry/diameter",
-                                       "Geometry/layers" }));
+            (std::vector<std::string>{"Coupling/Filter/length",
+                                      "Coupling/Filter/velocities",
+                                      "Coupling/scaling",
+                                      "Geometry/diameter",
+                                      "Geometry/layers"}));
 }
 
 TEST(ParameterFile, SaysWhereAValueCameFrom)
 {
-  Declared declared;
+  Declared      declared;
   ParameterFile file(declared.handler);
-  const auto explained = [&file]() {
+  const auto    explained = [&file]() {
     return file.explain(InputError("Geometry/diameter", "no bed fits"));
   };
   EXPECT_EQ(explained(), "Geometry/diameter = 0.025 (the default): no bed fits");
@@ -205,12 +208,12 @@ TEST(ParameterFile, SaysWhatAValueMustBe)
 TEST(ParameterFile, RefusesWhatIsNoStatement)
 {
   EXPECT_EQ(
-      complaint("subsection Geometry\n"
-                "subsection Mesh\nend\n"),
-      "case.prm:2: there is no section \"Geometry/Mesh\"; did you mean \"Geometry\"?");
+    complaint("subsection Geometry\n"
+              "subsection Mesh\nend\n"),
+    "case.prm:2: there is no section \"Geometry/Mesh\"; did you mean \"Geometry\"?");
   EXPECT_EQ(
-      complaint("subsection Geometry\nset layers = 3\n"),
-      "case.prm:1: the section \"Geometry\" has no \"end\" before the end of the file");
+    complaint("subsection Geometry\nset layers = 3\n"),
+    "case.prm:1: the section \"Geometry\" has no \"end\" before the end of the file");
   EXPECT_EQ(complaint("subsection Geometry\nend\nend\n"),
             "case.prm:3: this \"end\" closes no section of this file");
   EXPECT_EQ(complaint("subsection Geometry\nset layers 3\nend\n"),
@@ -232,8 +235,8 @@ TEST_F(Files, IncludeStartsFromTheIncludingFile)
   const std::string main = write("main.prm",
                                  "include parts/geometry.prm\n"
                                  "subsection Geometry\nset diameter = 1\nend\n");
-  Declared declared;
-  ParameterFile file(declared.handler);
+  Declared          declared;
+  ParameterFile     file(declared.handler);
   file.read(main);
   EXPECT_EQ(declared.layers, 9u);
   EXPECT_EQ(declared.diameter, 1.);
@@ -243,9 +246,9 @@ TEST_F(Files, IncludeStartsFromTheIncludingFile)
 
 TEST_F(Files, UnreadableFilesAreNamed)
 {
-  Declared declared;
+  Declared      declared;
   ParameterFile file(declared.handler);
-  const auto sentence = [&file](const std::string &name) -> std::string {
+  const auto    sentence = [&file](const std::string &name) -> std::string {
     try
       {
         file.read(name);
@@ -264,17 +267,17 @@ TEST_F(Files, UnreadableFilesAreNamed)
   const std::string lost = write("lost.prm", "\ninclude gone.prm\n");
   EXPECT_EQ(sentence(lost),
             lost + ":2: cannot read the included file \"" +
-                (folder / "gone.prm").string() + "\"; is the path right?");
+              (folder / "gone.prm").string() + "\"; is the path right?");
 
   const std::string circle = write("circle.prm", "include circle.prm\n");
   EXPECT_EQ(sentence(circle),
             circle + ":1: the included file \"" + circle +
-                "\" is still being read: files include each other in a circle");
+              "\" is still being read: files include each other in a circle");
 
   const std::string open = write("open.prm", "subsection Geometry\n");
   EXPECT_EQ(sentence(write("opens.prm", "include open.prm\nend\n")),
             open +
-                ":1: the section \"Geometry\" has no \"end\" before the end of the file");
+              ":1: the section \"Geometry\" has no \"end\" before the end of the file");
 }
 
 TEST(Require, FailsOnNaN)
@@ -295,10 +298,10 @@ TEST(Require, FailsOnNaN)
 
 TEST(NearestName, HasTheLeastEditDistance)
 {
-  const std::vector<std::string> known{ "abcd", "axcd", "kitten" };
+  const std::vector<std::string> known{"abcd", "axcd", "kitten"};
   EXPECT_EQ(nearest_name("abcd", known), "abcd");
-  EXPECT_EQ(nearest_name("acd", { "abxd", "axcd" }), "axcd"); // 1 against 2
-  EXPECT_EQ(nearest_name("abcd", { "wxyd", "ab" }), "ab");    // 2 against 3
+  EXPECT_EQ(nearest_name("acd", {"abxd", "axcd"}), "axcd"); // 1 against 2
+  EXPECT_EQ(nearest_name("abcd", {"wxyd", "ab"}), "ab");    // 2 against 3
   EXPECT_EQ(nearest_name("sitting", known), "kitten");
   EXPECT_EQ(nearest_name("", known), "abcd");
   EXPECT_EQ(nearest_name("anything", {}), "");
@@ -307,13 +310,13 @@ TEST(NearestName, HasTheLeastEditDistance)
 TEST(ParameterEntries, NumbersNeedAUnit)
 {
   dealii::ParameterHandler handler;
-  Declared declared;
+  Declared                 declared;
   EXPECT_EQ(entries_without_unit(declared.handler), std::vector<std::string>{});
 
-  double real        = 0.;
-  unsigned int whole = 0;
-  bool flag          = false;
-  std::string text;
+  double              real  = 0.;
+  unsigned int        whole = 0;
+  bool                flag  = false;
+  std::string         text;
   std::vector<double> list;
   handler.enter_subsection("A");
   handler.add_parameter("bare", real, "Length.");
@@ -325,10 +328,9 @@ TEST(ParameterEntries, NumbersNeedAUnit)
   handler.add_parameter("text", text, "A name.");
   handler.add_parameter("unit", real, "A length\nover two lines [kg/m^3].");
   handler.leave_subsection();
-  EXPECT_EQ(
-      entries_without_unit(handler),
-      (std::vector<std::string>{
-          "A/bare", "A/brackets inside", "A/count", "A/empty brackets", "A/list" }));
+  EXPECT_EQ(entries_without_unit(handler),
+            (std::vector<std::string>{
+              "A/bare", "A/brackets inside", "A/count", "A/empty brackets", "A/list"}));
 }
 
 TEST(ParameterEntries, PatternsHaveWords)

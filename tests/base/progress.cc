@@ -13,11 +13,12 @@ namespace
   struct TimedRun
   {
     explicit TimedRun(const bool rewrites)
-        : progress(out, rewrites, &log, [this]() { return now; })
+      : progress(out, rewrites, &log, [this]() { return now; })
     {
     }
 
-    void steps(const unsigned int n)
+    void
+    steps(const unsigned int n)
     {
       for (unsigned int i = 0; i < n; ++i)
         {
@@ -26,9 +27,9 @@ namespace
         }
     }
 
-    double now = 0.;
+    double             now = 0.;
     std::ostringstream out, log;
-    Progress progress;
+    Progress           progress;
   };
 } // namespace
 
@@ -90,7 +91,7 @@ TEST(CostSheet, ScopesAddUp)
   for (unsigned int i = 0; i < 2; ++i)
     {
       const CostSheet::Scope scope(sheet, CostSheet::halo);
-      const double start = Progress::steady_seconds();
+      const double           start = Progress::steady_seconds();
       while (Progress::steady_seconds() - start < 2e-3)
         {
         }

@@ -11,7 +11,7 @@ using namespace graupel;
 namespace
 {
   const FluidProperties air;
-  constexpr double diameter = 1.6e-3;
+  constexpr double      diameter = 1.6e-3;
 } // namespace
 
 TEST(BedCorrelations, ErgunReproducesTheTwelveValuesOfThePaper)
@@ -21,20 +21,24 @@ TEST(BedCorrelations, ErgunReproducesTheTwelveValuesOfThePaper)
   struct Row
   {
     const char *name;
-    double superficial_velocity, alpha, pressure_drop;
+    double      superficial_velocity, alpha, pressure_drop;
   };
-  const std::vector<Row> table{
-    { "1", 0.271, 0.388, 413.75 },    { "2", 0.320, 0.389, 521.12 },
-    { "3", 0.368, 0.392, 636.78 },    { "4", 0.423, 0.390, 772.91 },
-    { "5", 0.476, 0.390, 918.38 },    { "6", 0.534, 0.398, 1133.04 },
-    { "1_2x", 0.298, 0.408, 387.30 }, { "2_2x", 0.347, 0.408, 480.42 },
-    { "3_2x", 0.402, 0.408, 594.55 }, { "4_2x", 0.459, 0.408, 723.17 },
-    { "5_2x", 0.512, 0.407, 854.72 }, { "6_2x", 0.548, 0.414, 901.40 }
-  };
+  const std::vector<Row> table{{"1", 0.271, 0.388, 413.75},
+                               {"2", 0.320, 0.389, 521.12},
+                               {"3", 0.368, 0.392, 636.78},
+                               {"4", 0.423, 0.390, 772.91},
+                               {"5", 0.476, 0.390, 918.38},
+                               {"6", 0.534, 0.398, 1133.04},
+                               {"1_2x", 0.298, 0.408, 387.30},
+                               {"2_2x", 0.347, 0.408, 480.42},
+                               {"3_2x", 0.402, 0.408, 594.55},
+                               {"4_2x", 0.459, 0.408, 723.17},
+                               {"5_2x", 0.512, 0.407, 854.72},
+                               {"6_2x", 0.548, 0.414, 901.40}};
   for (const Row &row : table)
     {
       const double gradient =
-          ergun_pressure_gradient(air, diameter, row.alpha, row.superficial_velocity);
+        ergun_pressure_gradient(air, diameter, row.alpha, row.superficial_velocity);
       const double length = row.pressure_drop / gradient;
       std::cout << "case " << row.name << ": " << row.pressure_drop << " Pa printed, "
                 << gradient << " Pa/m, so the bed is " << length << " m long"
@@ -44,16 +48,16 @@ TEST(BedCorrelations, ErgunReproducesTheTwelveValuesOfThePaper)
       EXPECT_GE(length, expanded ? 0.164 : 0.143) << row.name;
       EXPECT_LE(length, expanded ? 0.166 : 0.151) << row.name;
       EXPECT_NEAR(
-          ergun_pressure_drop(air, diameter, row.alpha, row.superficial_velocity, length),
-          row.pressure_drop,
-          1e-12 * row.pressure_drop);
+        ergun_pressure_drop(air, diameter, row.alpha, row.superficial_velocity, length),
+        row.pressure_drop,
+        1e-12 * row.pressure_drop);
     }
 }
 
 TEST(BedCorrelations, VelocityInvertsTheGradient)
 {
   // From creeping to inertial flow; both directions lose a digit or two.
-  for (const double velocity : { 1e-12, 1e-6, 0.271, 1., 1e3 })
+  for (const double velocity : {1e-12, 1e-6, 0.271, 1., 1e3})
     {
       const double gradient = ergun_pressure_gradient(air, diameter, 0.4, velocity);
       const double back     = ergun_superficial_velocity(air, diameter, 0.4, gradient);
@@ -87,51 +91,51 @@ TEST(BedCorrelations, EqualChannelsAreOneBed)
 {
   const double alone = ergun_pressure_gradient(air, diameter, 0.4, 0.3);
   const double five  = parallel_channels_pressure_gradient(
-      air, diameter, { { 1., 0.4 }, { 2., 0.4 }, { 3., 0.4 }, { 0.1, 0.4 } }, 0.3);
+    air, diameter, {{1., 0.4}, {2., 0.4}, {3., 0.4}, {0.1, 0.4}}, 0.3);
   EXPECT_NEAR(five, alone, 1e-13 * alone);
 }
 
 TEST(BedCorrelations, ChannelsHaveTheirAnalyticLimits)
 {
-  const std::vector<Channel> channels{ { 3e-4, 0.37 }, { 1e-4, 0.55 } };
-  const double velocity  = 0.3;
-  const auto coefficient = [](const double alpha, const double power) {
+  const std::vector<Channel> channels{{3e-4, 0.37}, {1e-4, 0.55}};
+  const double               velocity    = 0.3;
+  const auto                 coefficient = [](const double alpha, const double power) {
     return std::pow(1. - alpha, power) / std::pow(alpha, 3);
   };
 
   // Thick fluid, G = a_i V_i: the conductances add. The inertial part is below 1e-9.
   FluidProperties honey;
   honey.viscosity      = 1e5;
-  const double a[2]    = { 150. * coefficient(0.37, 2.) * 1e5 / (diameter * diameter),
-                           150. * coefficient(0.55, 2.) * 1e5 / (diameter * diameter) };
+  const double a[2]    = {150. * coefficient(0.37, 2.) * 1e5 / (diameter * diameter),
+                          150. * coefficient(0.55, 2.) * 1e5 / (diameter * diameter)};
   const double viscous = 4e-4 * velocity / (3e-4 / a[0] + 1e-4 / a[1]);
   const double slow =
-      parallel_channels_pressure_gradient(honey, diameter, channels, velocity);
+    parallel_channels_pressure_gradient(honey, diameter, channels, velocity);
   std::cout << "viscous: " << slow << " Pa/m, expected " << viscous << std::endl;
   EXPECT_NEAR(slow, viscous, 1e-8 * viscous);
 
   // No viscosity, G = b_i V_i^2.
   FluidProperties inviscid;
   inviscid.viscosity = 1e-16;
-  const double b[2]  = { 1.75 * coefficient(0.37, 1.) * air.density / diameter,
-                         1.75 * coefficient(0.55, 1.) * air.density / diameter };
+  const double b[2]  = {1.75 * coefficient(0.37, 1.) * air.density / diameter,
+                        1.75 * coefficient(0.55, 1.) * air.density / diameter};
   const double inertial =
-      std::pow(4e-4 * velocity / (3e-4 / std::sqrt(b[0]) + 1e-4 / std::sqrt(b[1])), 2);
+    std::pow(4e-4 * velocity / (3e-4 / std::sqrt(b[0]) + 1e-4 / std::sqrt(b[1])), 2);
   const double fast =
-      parallel_channels_pressure_gradient(inviscid, diameter, channels, velocity);
+    parallel_channels_pressure_gradient(inviscid, diameter, channels, velocity);
   std::cout << "inertial: " << fast << " Pa/m, expected " << inertial << std::endl;
   EXPECT_NEAR(fast, inertial, 1e-8 * inertial);
 }
 
 TEST(BedCorrelations, ChannelsConserveMassAndLowerTheGradient)
 {
-  const std::vector<Channel> channels{ { 4e-4, 0.38 }, { 0.9e-4, 0.46 } };
-  const double gradient =
-      parallel_channels_pressure_gradient(air, diameter, channels, 0.3);
+  const std::vector<Channel> channels{{4e-4, 0.38}, {0.9e-4, 0.46}};
+  const double               gradient =
+    parallel_channels_pressure_gradient(air, diameter, channels, 0.3);
   double flow = 0.;
   for (const Channel &channel : channels)
     flow +=
-        channel.area * ergun_superficial_velocity(air, diameter, channel.alpha, gradient);
+      channel.area * ergun_superficial_velocity(air, diameter, channel.alpha, gradient);
   std::cout << "flow " << flow << " m^3/s, expected " << 0.3 * 4.9e-4 << std::endl;
   EXPECT_NEAR(flow, 0.3 * 4.9e-4, 1e-12 * 0.3 * 4.9e-4);
 
@@ -143,15 +147,10 @@ TEST(BedCorrelations, ChannelsConserveMassAndLowerTheGradient)
 TEST(BedCorrelations, ChannelsRefuseNonsense)
 {
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_EQ(parallel_channels_pressure_gradient(
-                air, diameter, { { 1., 0.4 }, { 1., 0.5 } }, 0.),
-            0.);
-  for (const std::vector<Channel> &channels :
-       std::vector<std::vector<Channel>>{ {},
-                                          { { 1., nan }, { 1., 0.4 } },
-                                          { { 1., 0. } },
-                                          { { -1., 0.4 } },
-                                          { { nan, 0.4 } } })
+  EXPECT_EQ(
+    parallel_channels_pressure_gradient(air, diameter, {{1., 0.4}, {1., 0.5}}, 0.), 0.);
+  for (const std::vector<Channel> &channels : std::vector<std::vector<Channel>>{
+         {}, {{1., nan}, {1., 0.4}}, {{1., 0.}}, {{-1., 0.4}}, {{nan, 0.4}}})
     EXPECT_THROW(parallel_channels_pressure_gradient(air, diameter, channels, 0.3),
                  std::invalid_argument);
 }
@@ -159,7 +158,7 @@ TEST(BedCorrelations, ChannelsRefuseNonsense)
 TEST(FluidProperties, RefusesNonsense)
 {
   EXPECT_NO_THROW(FluidProperties().check());
-  for (const double value : { 0., -1., std::numeric_limits<double>::quiet_NaN() })
+  for (const double value : {0., -1., std::numeric_limits<double>::quiet_NaN()})
     {
       FluidProperties fluid;
       fluid.density = value;

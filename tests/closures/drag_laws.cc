@@ -14,27 +14,30 @@ using namespace graupel;
 namespace
 {
   const FluidProperties air;
-  constexpr double diameter = 1.6e-3;
+  constexpr double      diameter = 1.6e-3;
 
   // A handful of operations in double precision.
   constexpr double round_off = 1e-13;
 
   // Drag per volume and per slip of a bed of spheres [kg/(m^3 s)]: the number
   // density times beta_p = pi/8 mu d N, all from its definition.
-  double exchange_coefficient(const double drag_number, const double alpha)
+  double
+  exchange_coefficient(const double drag_number, const double alpha)
   {
     const double volume = dealii::numbers::PI / 6. * diameter * diameter * diameter;
     const double beta_p =
-        dealii::numbers::PI / 8. * air.viscosity * diameter * drag_number;
+      dealii::numbers::PI / 8. * air.viscosity * diameter * drag_number;
     return (1. - alpha) / volume * beta_p;
   }
 
-  double reynolds(const double slip)
+  double
+  reynolds(const double slip)
   {
     return air.density * slip * diameter / air.viscosity;
   }
 
-  void expect_equal(const double computed, const double expected, const std::string &what)
+  void
+  expect_equal(const double computed, const double expected, const std::string &what)
   {
     std::cout << what << ": " << computed << ", expected " << expected << std::endl;
     EXPECT_NEAR(computed, expected, round_off * std::abs(expected)) << what;
@@ -50,12 +53,12 @@ TEST(DragLaws, ErgunCoefficientIsThePapersEquation4)
 TEST(DragLaws, UniformBedOfErgunHasErgunsGradient)
 {
   // Steady uniform model A: alpha dp/dz = beta u.
-  for (const double alpha : { 0.35, 0.4, 0.6 })
-    for (const double superficial : { 1e-4, 0.271, 3. })
+  for (const double alpha : {0.35, 0.4, 0.6})
+    for (const double superficial : {1e-4, 0.271, 3.})
       {
         const double u = superficial / alpha;
         const double beta =
-            exchange_coefficient(ergun_drag_number(alpha, reynolds(u)), alpha);
+          exchange_coefficient(ergun_drag_number(alpha, reynolds(u)), alpha);
         expect_equal(beta * u / alpha,
                      ergun_pressure_gradient(air, diameter, alpha, superficial),
                      "gradient [Pa/m]");
@@ -68,7 +71,7 @@ TEST(DragLaws, EveryLawHasItsPublishedExchangeCoefficient)
   // than the code takes.
   const auto ergun = [](const double alpha, const double u) {
     return 150. * std::pow(1. - alpha, 2) * air.viscosity /
-               (alpha * diameter * diameter) +
+             (alpha * diameter * diameter) +
            1.75 * (1. - alpha) * air.density * u / diameter;
   };
   const auto wen_yu = [](const double alpha, const double u) {
@@ -81,12 +84,11 @@ TEST(DragLaws, EveryLawHasItsPublishedExchangeCoefficient)
     return alpha < 0.8 ? ergun(alpha, u) : wen_yu(alpha, u);
   };
   const std::map<std::string, std::function<double(double, double)>> published{
-    { "ergun", ergun }, { "wen-yu", wen_yu }, { "gidaspow", gidaspow }
-  };
+    {"ergun", ergun}, {"wen-yu", wen_yu}, {"gidaspow", gidaspow}};
 
   for (const DragLaw &law : drag_laws())
-    for (const double alpha : { 0.4, 0.79, 0.81, 0.99 })
-      for (const double u : { 1e-3, 0.7, 20. })
+    for (const double alpha : {0.4, 0.79, 0.81, 0.99})
+      for (const double u : {1e-3, 0.7, 20.})
         expect_equal(exchange_coefficient(law.drag_number(alpha, reynolds(u)), alpha),
                      published.at(law.name)(alpha, u),
                      law.name + " beta [kg/m^3/s]");
@@ -108,13 +110,13 @@ TEST(DragLaws, AreFiniteAtRest)
   expect_equal(ergun_drag_number(0.4, 0.), 300., "Ergun at rest");
   expect_equal(wen_yu_drag_number(0.5, 0.), 24. * std::pow(2., 2.65), "Wen-Yu at rest");
   for (const DragLaw &law : drag_laws())
-    for (const double alpha : { 0.2, 0.4, 0.8, 1. })
+    for (const double alpha : {0.2, 0.4, 0.8, 1.})
       {
         const double at_rest = law.drag_number(alpha, 0.);
         EXPECT_TRUE(std::isfinite(at_rest)) << law.name;
         // Continuous: the first correction of Schiller and Naumann is of order Re^0.687.
         EXPECT_NEAR(law.drag_number(alpha, 1e-9), at_rest, 1e-5 * (1. + at_rest))
-            << law.name;
+          << law.name;
       }
 }
 
@@ -122,10 +124,10 @@ TEST(DragLaws, GidaspowSwitchesAtFourFifths)
 {
   const double below = std::nextafter(0.8, 0.), re = 50.;
   expect_equal(
-      gidaspow_drag_number(below, re), ergun_drag_number(below, re), "below 0.8");
+    gidaspow_drag_number(below, re), ergun_drag_number(below, re), "below 0.8");
   expect_equal(gidaspow_drag_number(0.8, re), wen_yu_drag_number(0.8, re), "at 0.8");
   EXPECT_GT(std::abs(ergun_drag_number(0.8, re) / wen_yu_drag_number(0.8, re) - 1.), 0.01)
-      << "the two sides must differ for this test to see the switch";
+    << "the two sides must differ for this test to see the switch";
 }
 
 TEST(DragLaws, TableIsSound)

@@ -12,15 +12,16 @@ using namespace graupel;
 namespace
 {
   const FluidProperties air;
-  constexpr double diameter = 1.6e-3;
+  constexpr double      diameter = 1.6e-3;
 
   // Some operations in double precision, one of them a power.
   constexpr double round_off = 1e-13;
 
-  Drag drag(const std::string &law,
-            const std::string &scaling,
-            const double scale,
-            const std::string &expression = DragParameters().expression)
+  Drag
+  drag(const std::string &law,
+       const std::string &scaling,
+       const double       scale,
+       const std::string &expression = DragParameters().expression)
   {
     DragParameters parameters;
     parameters.law        = law;
@@ -30,7 +31,8 @@ namespace
   }
 
   // What the user reads about an expression, or "".
-  std::string complaint(const std::string &expression, const double scale = 2.)
+  std::string
+  complaint(const std::string &expression, const double scale = 2.)
   {
     DragParameters parameters;
     parameters.scaling    = "expression";
@@ -47,7 +49,8 @@ namespace
     return "";
   }
 
-  void expect_contains(const std::string &text, const std::string &part)
+  void
+  expect_contains(const std::string &text, const std::string &part)
   {
     EXPECT_NE(text.find(part), std::string::npos) << '"' << text << "\" lacks " << part;
   }
@@ -58,15 +61,15 @@ TEST(Scaling, ExactIsTheForceOfTheOriginals)
   // The slips put Reynolds numbers on both sides of Wen and Yu's switch, where
   // Re_s is beyond 1000 and the original Re is not.
   for (const DragLaw &law : drag_laws())
-    for (const double scale : { 1., 1.5, 2., 3., 4. })
-      for (const double alpha : { 0.38, 0.6, 0.85 })
-        for (const double slip : { 0., 1e-3, 0.7, 8., 40. })
+    for (const double scale : {1., 1.5, 2., 3., 4.})
+      for (const double alpha : {0.38, 0.6, 0.85})
+        for (const double slip : {0., 1e-3, 0.7, 8., 40.})
           {
             const double one   = drag(law.name, "none", 1.).beta(alpha, slip);
             const double large = drag(law.name, "exact", scale).beta(alpha, slip);
             EXPECT_NEAR(large, scale * scale * scale * one, round_off * large)
-                << law.name << ", s = " << scale << ", alpha = " << alpha
-                << ", slip = " << slip;
+              << law.name << ", s = " << scale << ", alpha = " << alpha
+              << ", slip = " << slip;
           }
   std::cout << "gidaspow, alpha = 0.38, 0.7 m/s: beta at 1X "
             << drag("gidaspow", "none", 1.).beta(0.38, 0.7) << " kg/s, at 2X over 8 "
@@ -77,12 +80,12 @@ TEST(Scaling, BetaIsTheForceOverTheSlip)
 {
   // F = 1/2 rho C_d A_p |u - v| (u - v), on the route by C_d.
   const double alpha = 0.4, slip = 0.7;
-  const Drag two    = drag("gidaspow", "none", 2.);
+  const Drag   two  = drag("gidaspow", "none", 2.);
   const double d_s  = 2. * diameter;
   const double area = dealii::numbers::PI * d_s * d_s / 4.;
   const double re   = air.density * slip * d_s / air.viscosity;
   const double expected =
-      0.5 * air.density * drag_coefficient(two.law(), alpha, re) * area * slip;
+    0.5 * air.density * drag_coefficient(two.law(), alpha, re) * area * slip;
   std::cout << "beta " << two.beta(alpha, slip) << " kg/s, expected " << expected
             << std::endl;
   EXPECT_NEAR(two.reynolds(slip), re, round_off * re);
@@ -92,14 +95,14 @@ TEST(Scaling, BetaIsTheForceOverTheSlip)
 TEST(Scaling, ScaleOneChangesNothing)
 {
   for (const DragLaw &law : drag_laws())
-    for (const double slip : { 0., 0.7, 40. })
+    for (const double slip : {0., 0.7, 40.})
       {
         const double plain = drag(law.name, "none", 1.).beta(0.4, slip);
         EXPECT_EQ(drag(law.name, "exact", 1.).beta(0.4, slip), plain);
         // The default expression, too: at s = 1 it is Cd. At rest its floor of
         // Re = 1e-6 adds 7/3e-6 to a drag number of some 100.
         EXPECT_NEAR(
-            drag(law.name, "expression", 1.).beta(0.4, slip), plain, 1e-5 * plain);
+          drag(law.name, "expression", 1.).beta(0.4, slip), plain, 1e-5 * plain);
       }
 }
 
@@ -108,12 +111,12 @@ TEST(Scaling, PrintedFormExceedsTheExactOneByTheKnownFigures)
   // s = 2: (7/3 - 1.75) / C_d, 8.6 % in case 1 and 12.7 % in case 5_2x of the
   // paper; the figures have one decimal.
   const auto excess =
-      [](const double alpha, const double superficial, const double scale) {
-        const double slip = superficial / alpha;
-        return 100. * (drag("ergun", "ricklick-baran", scale).beta(alpha, slip) /
-                           drag("ergun", "exact", scale).beta(alpha, slip) -
-                       1.);
-      };
+    [](const double alpha, const double superficial, const double scale) {
+      const double slip = superficial / alpha;
+      return 100. * (drag("ergun", "ricklick-baran", scale).beta(alpha, slip) /
+                       drag("ergun", "exact", scale).beta(alpha, slip) -
+                     1.);
+    };
   std::cout << "excess at 2X: " << excess(0.388, 0.271, 2.) << " % (8.6), "
             << excess(0.407, 0.512, 2.)
             << " % (12.7); at 3X: " << excess(0.388, 0.271, 3.) << ' '
@@ -134,43 +137,43 @@ TEST(Scaling, PrintedFormIsLimitedToPositive)
 
 TEST(Scaling, CorrectedExpressionIsExactForErgun)
 {
-  for (const double scale : { 1., 1.5, 2., 3., 4. })
-    for (const double slip : { 1e-3, 0.7, 8. })
+  for (const double scale : {1., 1.5, 2., 3., 4.})
+    for (const double slip : {1e-3, 0.7, 8.})
       {
         const double exact = drag("ergun", "exact", scale).beta(0.39, slip);
         const double typed =
-            drag("ergun", "expression", scale, "s*(s*Cd-7/3*(s-1))").beta(0.39, slip);
+          drag("ergun", "expression", scale, "s*(s*Cd-7/3*(s-1))").beta(0.39, slip);
         if (scale == 2.)
           std::cout << "expression " << typed << " kg/s, exact " << exact << std::endl;
         // The two cancelling terms are up to ten times their difference.
         EXPECT_NEAR(typed, exact, 1e-12 * exact)
-            << "s = " << scale << ", slip = " << slip;
+          << "s = " << scale << ", slip = " << slip;
       }
 }
 
 TEST(Scaling, ExpressionSeesAllItsVariables)
 {
-  const DragLaw &law = find_drag_law("ergun");
+  const DragLaw          &law = find_drag_law("ergun");
   const ScalingExpression all("Cd + 10*Re + 100*alpha + 1000*s + 1e6*d", 3., diameter);
-  const double re = 50., alpha = 0.4;
-  const double expected =
-      (drag_coefficient(law, alpha, re) + 10. * re + 100. * alpha + 3000. + 1600.) * re;
+  const double            re = 50., alpha = 0.4;
+  const double            expected =
+    (drag_coefficient(law, alpha, re) + 10. * re + 100. * alpha + 3000. + 1600.) * re;
   EXPECT_NEAR(all.drag_number(law, alpha, re), expected, round_off * expected);
 }
 
 TEST(Scaling, EveryFormIsFiniteAtRest)
 {
   for (const DragLaw &law : drag_laws())
-    for (const std::string form : { "exact", "ricklick-baran", "expression", "none" })
-      for (const double scale : { 1., 2., 4. })
+    for (const std::string form : {"exact", "ricklick-baran", "expression", "none"})
+      for (const double scale : {1., 2., 4.})
         {
-          const Drag any       = drag(law.name, form, scale);
+          const Drag   any     = drag(law.name, form, scale);
           const double at_rest = any.beta(0.4, 0.);
           EXPECT_TRUE(std::isfinite(at_rest)) << law.name << ' ' << form;
           EXPECT_GT(at_rest, 0.) << law.name << ' ' << form;
           // No jump on leaving rest: 1e-8 m/s is Re = 1e-6 or a little more.
           EXPECT_NEAR(any.beta(0.4, 4e-8), at_rest, 1e-4 * at_rest)
-              << law.name << ' ' << form;
+            << law.name << ' ' << form;
         }
 }
 
@@ -214,23 +217,23 @@ TEST(Scaling, RunStopsAtAnImpossibleDrag)
 TEST(Scaling, DragRefusesNonsense)
 {
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  for (const std::string form : { "exact", "ricklick-baran", "expression", "none" })
+  for (const std::string form : {"exact", "ricklick-baran", "expression", "none"})
     {
       const Drag any = drag("gidaspow", form, 2.);
-      for (const double alpha : { nan, 0., -0.1, 1.1 })
+      for (const double alpha : {nan, 0., -0.1, 1.1})
         EXPECT_THROW(any.beta(alpha, 0.7), std::runtime_error) << form << ' ' << alpha;
       EXPECT_THROW(any.beta(0.4, nan), std::runtime_error) << form;
       EXPECT_THROW(any.beta(0.4, std::numeric_limits<double>::infinity()),
                    std::runtime_error)
-          << form;
+        << form;
     }
 }
 
 TEST(Scaling, ParametersAreReadAndHaveUnits)
 {
   dealii::ParameterHandler handler;
-  DragParameters parameters;
-  FluidProperties fluid;
+  DragParameters           parameters;
+  FluidProperties          fluid;
   parameters.declare(handler);
   fluid.declare(handler);
   EXPECT_EQ(entries_without_unit(handler), std::vector<std::string>{});

@@ -29,7 +29,8 @@ namespace
           add(Point<3>((k % n) * d, (k / n % n) * d, (k / (n * n) + 0.5) * d));
     }
 
-    void add(const Point<3> &x)
+    void
+    add(const Point<3> &x)
     {
       particles.resize(++particles.n_owned);
       particles.set_sphere(particles.n_owned - 1, d / 2., 2700.);
@@ -37,9 +38,9 @@ namespace
     }
 
     static constexpr unsigned int n = 5, layers = 40;
-    static constexpr double d = 2e-3;
-    ParticleArrays particles;
-    Cylinder cylinder;
+    static constexpr double       d = 2e-3;
+    ParticleArrays                particles;
+    Cylinder                      cylinder;
   };
 
   // Spherical segments: half, whole, nothing, and a quarter of the height
@@ -60,15 +61,14 @@ namespace
   TEST_F(Lattice, HeightAndVoidFraction)
   {
     const BedObservables observables(particles, cylinder, MPI_COMM_WORLD);
-    const auto bed = observables.bed();
+    const auto           bed = observables.bed();
     EXPECT_NEAR(bed.bulk_solid_fraction, PI / 6., 1e-7);
     EXPECT_NEAR(bed.height, layers * d, 1e-6 * d);
     EXPECT_NEAR(bed.mean_void_fraction, 1. - PI / 6., 1e-7);
     EXPECT_NEAR(observables.solid_volume_between(0., 10.5 * d),
                 10.5 * n * n * sphere_volume(d / 2.),
                 1e-9 * cylinder.cross_section() * d);
-    const auto fractions =
-        observables.solid_fractions({ 0., d, 3. * d, 50. * d, 55. * d });
+    const auto fractions = observables.solid_fractions({0., d, 3. * d, 50. * d, 55. * d});
     EXPECT_NEAR(fractions[0], PI / 6., 1e-9);
     EXPECT_NEAR(fractions[1], PI / 6., 1e-9);
     EXPECT_EQ(fractions[3], 0.);
@@ -92,7 +92,8 @@ namespace
     EXPECT_EQ(bed.mean_void_fraction, 1.);
   }
 
-  FillingParameters by_count(const unsigned int count)
+  FillingParameters
+  by_count(const unsigned int count)
   {
     FillingParameters filling;
     filling.count      = count;
@@ -106,7 +107,7 @@ namespace
   TEST(Bed, SettledBedWeighsOnBottomAndWall)
   {
     SmallColumn column(SmallColumn::parameters());
-    Filling filling(by_count(150), column.dem);
+    Filling     filling(by_count(150), column.dem);
     while (filling.step())
       {
       }
@@ -122,12 +123,11 @@ namespace
 
     const double weight = column.dem.weight();
     EXPECT_NEAR(
-        column.dem.bottom_force() + column.dem.wall_force(), weight, 5e-3 * weight);
+      column.dem.bottom_force() + column.dem.wall_force(), weight, 5e-3 * weight);
     EXPECT_GE(column.dem.bottom_force(), 0.3 * weight);
     EXPECT_GE(column.dem.coordination_number(), 3.5);
     const auto bed =
-        BedObservables(column.dem.particles(), column.dem.cylinder(), MPI_COMM_WORLD)
-            .bed();
+      BedObservables(column.dem.particles(), column.dem.cylinder(), MPI_COMM_WORLD).bed();
     EXPECT_GE(bed.mean_void_fraction, 0.40);
     EXPECT_LE(bed.mean_void_fraction, 0.52);
   }
@@ -137,7 +137,7 @@ namespace
   TEST(Bed, FilledByMassAndByHeight)
   {
     FillingParameters by_mass = by_count(0);
-    SmallColumn column(SmallColumn::parameters());
+    SmallColumn       column(SmallColumn::parameters());
     by_mass.mass = 40.2 * column.dem.parameters().particles.simulated_mass();
     Filling filling(by_mass, column.dem);
     while (filling.step())
@@ -148,7 +148,7 @@ namespace
     FillingParameters to_height = by_count(0);
     to_height.bed_height        = 0.02;
     SmallColumn high(SmallColumn::parameters());
-    Filling rising(to_height, high.dem);
+    Filling     rising(to_height, high.dem);
     while (rising.step())
       {
       }
@@ -157,8 +157,8 @@ namespace
       {
       }
     EXPECT_NEAR(BedObservables(high.dem.particles(), high.dem.cylinder(), MPI_COMM_WORLD)
-                    .bed()
-                    .height,
+                  .bed()
+                  .height,
                 0.02,
                 1.5 * 2e-3);
   }
@@ -168,12 +168,12 @@ namespace
   TEST(Bed, TappedToATarget)
   {
     SmallColumn column(SmallColumn::parameters());
-    Filling filling(by_count(150), column.dem);
+    Filling     filling(by_count(150), column.dem);
     while (filling.step())
       {
       }
     const BedObservables observables(
-        column.dem.particles(), column.dem.cylinder(), MPI_COMM_WORLD);
+      column.dem.particles(), column.dem.cylinder(), MPI_COMM_WORLD);
     Settling first(SettlingParameters(), column.dem);
     while (first.step())
       {
@@ -194,7 +194,7 @@ namespace
   TEST(Bed, FullColumnIsAnError)
   {
     SmallColumn column(SmallColumn::parameters());
-    Filling filling(by_count(1000), column.dem);
+    Filling     filling(by_count(1000), column.dem);
     try
       {
         while (filling.step())
@@ -211,14 +211,15 @@ namespace
   TEST(Bed, UnsettledBedIsAnError)
   {
     SmallColumn column(SmallColumn::parameters());
-    column.dem.insert({ Point<3>(0., 0., 0.02) });
+    column.dem.insert({Point<3>(0., 0., 0.02)});
     SettlingParameters impatient;
     impatient.maximum_time = 0.02;
     Settling settling(impatient, column.dem);
     EXPECT_THROW(while (settling.step()){}, DemError);
   }
 
-  std::string offender(const std::function<void()> &check)
+  std::string
+  offender(const std::function<void()> &check)
   {
     try
       {
@@ -235,7 +236,7 @@ namespace
   TEST(Parameters, ContradictionsAreFound)
   {
     const Cylinder cylinder = SmallColumn::vessel();
-    DemParameters dem       = SmallColumn::parameters();
+    DemParameters  dem      = SmallColumn::parameters();
     EXPECT_EQ(offender([&] { dem.check(cylinder); }), "");
     dem.particles.diameter = 6e-3;
     EXPECT_EQ(offender([&] { dem.check(cylinder); }), "Particles/diameter");
@@ -252,7 +253,7 @@ namespace
     EXPECT_EQ(offender([&] { dem.check(cylinder); }), "Contact/wall restitution");
 
     const ParticleParameters &spheres = SmallColumn::parameters().particles;
-    FillingParameters filling;
+    FillingParameters         filling;
     EXPECT_EQ(offender([&] { filling.check(cylinder, spheres); }), "Filling/bed height");
     filling = by_count(5);
     EXPECT_EQ(offender([&] { filling.check(cylinder, spheres); }), "");
@@ -270,9 +271,9 @@ namespace
   TEST(Parameters, EveryNumberHasAUnit)
   {
     dealii::ParameterHandler prm;
-    DemParameters dem;
-    FillingParameters filling;
-    SettlingParameters settling;
+    DemParameters            dem;
+    FillingParameters        filling;
+    SettlingParameters       settling;
     dem.declare(prm);
     filling.declare(prm);
     settling.declare(prm);

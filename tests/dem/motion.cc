@@ -8,7 +8,8 @@ namespace
   using dealii::Point;
   using Vector = dealii::Tensor<1, 3>;
 
-  DemParameters no_gravity(const std::string &model, const double restitution)
+  DemParameters
+  no_gravity(const std::string &model, const double restitution)
   {
     DemParameters p                        = SmallColumn::parameters();
     p.particles.gravity                    = 0.;
@@ -20,9 +21,10 @@ namespace
 
   // Two spheres that meet head-on across the middle of the column, along z,
   // where two ranks have their border.
-  SmallColumn &launch(SmallColumn &column, const Vector &first, const Vector &second)
+  SmallColumn &
+  launch(SmallColumn &column, const Vector &first, const Vector &second)
   {
-    column.dem.insert({ Point<3>(1e-4, 2e-4, 0.0138), Point<3>(1e-4, 2e-4, 0.0162) });
+    column.dem.insert({Point<3>(1e-4, 2e-4, 0.0138), Point<3>(1e-4, 2e-4, 0.0162)});
     column.set_velocity(0, first);
     column.set_velocity(1, second);
     return column;
@@ -35,14 +37,14 @@ namespace
   // exact up to the quantum of the force.
   TEST(Motion, HeadOnCollision)
   {
-    for (const std::string model : { "hertz-mindlin", "linear-spring" })
-      for (const double e : { 0.2, 0.4, 0.5, 0.7, 0.9, 1. })
-        for (const double fraction : { 0.2, 0.02 })
+    for (const std::string model : {"hertz-mindlin", "linear-spring"})
+      for (const double e : {0.2, 0.4, 0.5, 0.7, 0.9, 1.})
+        for (const double fraction : {0.2, 0.02})
           {
             DemParameters p         = no_gravity(model, e);
             p.contact.time_fraction = fraction;
             SmallColumn column(p);
-            launch(column, Vector({ 0., 0., 0.3 }), Vector({ 0., 0., -0.2 }));
+            launch(column, Vector({0., 0., 0.3}), Vector({0., 0., -0.2}));
             column.dem.advance(4e-3);
             const Vector a = column.velocity(0), b = column.velocity(1);
             const double returned = (b - a)[2] / 0.5;
@@ -61,18 +63,18 @@ namespace
   TEST(Motion, ContactBeginsWithinASubstep)
   {
     SmallColumn column(no_gravity("hertz-mindlin", 1.));
-    launch(column, Vector({ 0.02, 0., 0.5 }), Vector({ 0., 0., -0.5 }));
+    launch(column, Vector({0.02, 0., 0.5}), Vector({0., 0., -0.5}));
     const double dt = column.dem.substep();
     column.dem.advance(std::floor(4e-4 / dt) * dt);
     for (unsigned int k = 0; k < 100 && column.dem.coordination_number() == 0.; ++k)
       column.dem.advance(dt);
-    const Vector between = column.position(1) - column.position(0);
-    const Vector n       = between / between.norm();
-    const Vector u({ 0.02, 0., 1. });
-    const Contact contact{ n, 2e-3 - between.norm(), 5e-4, 1., {}, {}, {}, 0. };
-    const double S_t =
-        HertzMindlin::stiffness(column.dem.parameters().particle_pair(false), contact)
-            .tangential;
+    const Vector  between = column.position(1) - column.position(0);
+    const Vector  n       = between / between.norm();
+    const Vector  u({0.02, 0., 1.});
+    const Contact contact{n, 2e-3 - between.norm(), 5e-4, 1., {}, {}, {}, 0.};
+    const double  S_t =
+      HertzMindlin::stiffness(column.dem.parameters().particle_pair(false), contact)
+        .tangential;
     const double expected = S_t * contact.overlap * in_plane(u, n).norm() / (u * n);
     EXPECT_GT(contact.overlap, 0.);
     EXPECT_LE(contact.overlap, 0.99 * dt);
@@ -86,7 +88,7 @@ namespace
   TEST(Motion, ElasticImpactConservesEnergy)
   {
     SmallColumn column(no_gravity("hertz-mindlin", 1.));
-    launch(column, Vector({ 0., 0., 0.5 }), Vector({ 0., 0., -0.5 }));
+    launch(column, Vector({0., 0., 0.5}), Vector({0., 0., -0.5}));
     const double before = column.dem.mean_kinetic_energy();
     column.dem.advance(3e-3);
     EXPECT_NEAR(column.dem.mean_kinetic_energy() / before, 1., 3e-3);
@@ -98,15 +100,15 @@ namespace
   TEST(Motion, ObliqueImpactConservesAngularMomentum)
   {
     SmallColumn column(no_gravity("hertz-mindlin", 0.7));
-    column.dem.insert({ Point<3>(-4e-4, 0., 0.0138), Point<3>(4e-4, 0., 0.0162) });
-    column.set_velocity(0, Vector({ 0., 0., 0.4 }));
-    column.set_velocity(1, Vector({ 0., 0.1, -0.4 }));
+    column.dem.insert({Point<3>(-4e-4, 0., 0.0138), Point<3>(4e-4, 0., 0.0162)});
+    column.set_velocity(0, Vector({0., 0., 0.4}));
+    column.set_velocity(1, Vector({0., 0.1, -0.4}));
     const double mass    = column.dem.parameters().particles.simulated_mass();
     const double inertia = 0.4 * mass * 1e-6;
 
     const auto angular = [&]() {
       Vector L;
-      for (const int id : { 0, 1 })
+      for (const int id : {0, 1})
         L += mass * cross_product_3d(Vector(column.position(id)), column.velocity(id)) +
              inertia * column.everywhere(id, &ParticleArrays::spin);
       return L;
@@ -115,30 +117,30 @@ namespace
     column.dem.advance(3e-3);
     EXPECT_GT(column.everywhere(0, &ParticleArrays::spin).norm(), 1.);
     EXPECT_NEAR((angular() - before).norm() / before.norm(), 0., 1e-9);
-    EXPECT_NEAR(
-        (column.velocity(0) + column.velocity(1) - Vector({ 0., 0.1, 0. })).norm(),
-        0.,
-        1e-12);
+    EXPECT_NEAR((column.velocity(0) + column.velocity(1) - Vector({0., 0.1, 0.})).norm(),
+                0.,
+                1e-12);
   }
 
   // A sphere that just touches the bottom is pressed on it by a constant force
   // and swings in Hertz's spring, with and without damping. Error of its place
   // and speed at a fixed time against a run with steps 32 times finer.
-  double error_after(const double restitution,
-                     const double dt,
-                     const Vector *reference,
-                     Vector &result)
+  double
+  error_after(const double  restitution,
+              const double  dt,
+              const Vector *reference,
+              Vector       &result)
   {
     DemParameters p   = no_gravity("hertz-mindlin", restitution);
     p.contact.substep = dt;
     SmallColumn column(p);
-    column.dem.insert({ Point<3>(0., 0., 1e-3) });
+    column.dem.insert({Point<3>(0., 0., 1e-3)});
     if (column.row(0) >= 0)
-      column.dem.particles().external_force[column.row(0)] = Vector({ 0., 0., -0.01 });
+      column.dem.particles().external_force[column.row(0)] = Vector({0., 0., -0.01});
     column.dem.advance(1.2e-3);
     const double speed_scale = 0.05;
     result =
-        Vector({ column.position(0)[2] / 1e-5, column.velocity(0)[2] / speed_scale, 0. });
+      Vector({column.position(0)[2] / 1e-5, column.velocity(0)[2] / speed_scale, 0.});
     return reference ? (result - *reference).norm() : 0.;
   }
 
@@ -146,9 +148,9 @@ namespace
   // contact (force ~ overlap^1.5) keeps the observed order from being exact.
   TEST(Motion, SecondOrderThroughHertzContact)
   {
-    for (const double e : { 1., 0.5 })
+    for (const double e : {1., 0.5})
       {
-        Vector reference, ignored;
+        Vector       reference, ignored;
         const double coarse = 1.2e-3 / 64.;
         error_after(e, coarse / 128., nullptr, reference);
         const double first  = error_after(e, coarse, &reference, ignored);
@@ -171,7 +173,7 @@ namespace
     DemParameters p                    = SmallColumn::parameters();
     p.contact.wall_surface.restitution = 0.8;
     SmallColumn column(p);
-    column.dem.insert({ Point<3>(0., 0., 0.021) });
+    column.dem.insert({Point<3>(0., 0., 0.021)});
     column.dem.advance(0.03);
     EXPECT_NEAR(column.position(0)[2], 0.021 - 0.5 * 9.81 * 9e-4, 1e-12);
 
@@ -186,17 +188,17 @@ namespace
   TEST(Motion, LoadsOnWalls)
   {
     SmallColumn column(SmallColumn::parameters());
-    column.dem.insert({ Point<3>(0.00395, 0., 0.00102) });
+    column.dem.insert({Point<3>(0.00395, 0., 0.00102)});
     const double weight = column.dem.weight();
     if (column.row(0) >= 0)
       column.dem.particles().external_force[column.row(0)] =
-          Vector({ 3. * weight, 0., 0. });
+        Vector({3. * weight, 0., 0.});
     column.dem.advance(0.2);
     column.dem.advance(0.01);
     EXPECT_NEAR(
-        column.dem.bottom_force() + column.dem.wall_force(), weight, 1e-3 * weight);
+      column.dem.bottom_force() + column.dem.wall_force(), weight, 1e-3 * weight);
     EXPECT_NEAR(column.dem.force_on(lateral_wall)[0] +
-                    column.dem.force_on(bottom_wall)[0],
+                  column.dem.force_on(bottom_wall)[0],
                 3. * weight,
                 3e-3 * weight);
     EXPECT_EQ(column.dem.force_on(top_wall)[2], 0.);
@@ -208,18 +210,18 @@ namespace
   // the speed, against that of free rolling.
   TEST(Motion, RollingResistanceHoldsOnASlope)
   {
-    for (const std::string model : { "spring-dashpot", "constant-torque" })
-      for (const double slope : { 0.05, 0.2 })
+    for (const std::string model : {"spring-dashpot", "constant-torque"})
+      for (const double slope : {0.05, 0.2})
         {
           DemParameters p                           = no_gravity("hertz-mindlin", 0.3);
           p.contact.rolling_model                   = model;
           p.contact.wall_surface.rolling_resistance = 0.1;
           SmallColumn column(p);
-          column.dem.insert({ Point<3>(-0.002, 0., 1e-3) });
+          column.dem.insert({Point<3>(-0.002, 0., 1e-3)});
           const double weight = p.particles.simulated_mass() * 9.81;
           if (column.row(0) >= 0)
             column.dem.particles().external_force[column.row(0)] =
-                Vector({ slope * weight, 0., -weight });
+              Vector({slope * weight, 0., -weight});
           column.dem.advance(0.04);
           const double rolling = 5. / 7. * slope * 9.81 * 0.04;
           const double beyond  = 5. / 7. * (slope - 0.1) * 9.81 * 0.04;
@@ -235,7 +237,7 @@ namespace
   TEST(Motion, TooMuchOverlapStops)
   {
     SmallColumn column(no_gravity("hertz-mindlin", 0.5));
-    launch(column, Vector({ 0., 0., 40. }), Vector({ 0., 0., -40. }));
+    launch(column, Vector({0., 0., 40.}), Vector({0., 0., -40.}));
     try
       {
         column.dem.advance(1e-3);
@@ -244,7 +246,7 @@ namespace
     catch (const DemError &error)
       {
         EXPECT_NE(std::string(error.what()).find("overlaps"), std::string::npos)
-            << error.what();
+          << error.what();
         EXPECT_NE(std::string(error.what()).find("Try"), std::string::npos);
       }
   }
@@ -263,7 +265,7 @@ namespace
     SmallColumn column(SmallColumn::parameters());
     try
       {
-        column.dem.insert({ Point<3>(0.006, 0., 0.01) });
+        column.dem.insert({Point<3>(0.006, 0., 0.01)});
         FAIL() << "no exception";
       }
     catch (const DemError &error)

@@ -47,9 +47,9 @@ namespace
     EXPECT_GT(together->dem.coordination_number(), 1.);
     if (dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD) > 1)
       {
-        EXPECT_LT(dealii::Utilities::MPI::max(together->dem.particles().n_owned,
-                                              MPI_COMM_WORLD),
-                  150u);
+        EXPECT_LT(
+          dealii::Utilities::MPI::max(together->dem.particles().n_owned, MPI_COMM_WORLD),
+          150u);
       }
   }
 
@@ -69,16 +69,16 @@ namespace
   TEST(Parallel, TheSkinChangesNothing)
   {
     std::map<std::int64_t, std::vector<double>> states[2];
-    for (const unsigned int k : { 0, 1 })
+    for (const unsigned int k : {0, 1})
       {
         DemParameters p = SmallColumn::parameters();
         p.contact.skin  = k == 0 ? 0.1 : 0.5;
         SmallColumn column(p);
-        column.dem.insert({ Point<3>(1e-3, 2e-4, 0.002),
-                            Point<3>(-1e-3, 1e-4, 0.0025),
-                            Point<3>(1e-4, 3e-4, 0.0045),
-                            Point<3>(2e-4, -1.9e-3, 0.0055) },
-                          Vector({ 0.1, 0.05, -0.3 }));
+        column.dem.insert({Point<3>(1e-3, 2e-4, 0.002),
+                           Point<3>(-1e-3, 1e-4, 0.0025),
+                           Point<3>(1e-4, 3e-4, 0.0045),
+                           Point<3>(2e-4, -1.9e-3, 0.0055)},
+                          Vector({0.1, 0.05, -0.3}));
         column.dem.advance(0.05);
         states[k] = column.state();
       }
@@ -87,17 +87,18 @@ namespace
 
   // The middle of a face between two ranks, well inside, and its normal; of some
   // face if there is one rank only. The same on all ranks.
-  std::pair<Point<3>, Vector> border(const CylinderMesh &mesh)
+  std::pair<Point<3>, Vector>
+  border(const CylinderMesh &mesh)
   {
     std::vector<double> found;
     for (const auto &cell : mesh.triangulation().active_cell_iterators())
       for (const auto f : cell->face_indices())
         if (cell->is_locally_owned() && !cell->at_boundary(f) && found.empty())
           {
-            const auto center   = cell->face(f)->center();
+            const auto   center = cell->face(f)->center();
             const Vector normal = cell->neighbor(f)->center() - cell->center();
-            const bool alone =
-                dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD) == 1;
+            const bool   alone =
+              dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD) == 1;
             if ((alone || cell->neighbor(f)->is_ghost()) &&
                 std::hypot(center[0], center[1]) < 3e-3)
               for (unsigned int d = 0; d < 6; ++d)
@@ -105,8 +106,8 @@ namespace
           }
     for (const auto &numbers : dealii::Utilities::MPI::all_gather(MPI_COMM_WORLD, found))
       if (!numbers.empty())
-        return { Point<3>(numbers[0], numbers[1], numbers[2]),
-                 Vector({ numbers[3], numbers[4], numbers[5] }) };
+        return {Point<3>(numbers[0], numbers[1], numbers[2]),
+                Vector({numbers[3], numbers[4], numbers[5]})};
     return {};
   }
 
@@ -118,7 +119,7 @@ namespace
     p.particles.gravity = 0.;
     SmallColumn column(p);
     const auto [center, normal] = border(column.mesh);
-    column.dem.insert({ center - 0.99e-3 * normal, center + 0.99e-3 * normal });
+    column.dem.insert({center - 0.99e-3 * normal, center + 0.99e-3 * normal});
     if (dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD) == 2)
       {
         EXPECT_EQ(column.dem.particles().n_owned, 1u);
@@ -139,9 +140,9 @@ namespace
     const auto column = rain(MPI_COMM_WORLD);
     column->dem.synchronise();
     unsigned int next = 0;
-    column->dem.store().visit_cells([&](const auto &cell,
+    column->dem.store().visit_cells([&](const auto        &cell,
                                         const unsigned int first,
-                                        const auto &at) {
+                                        const auto        &at) {
       EXPECT_EQ(first, next);
       EXPECT_TRUE(cell->is_locally_owned());
       for (unsigned int k = 0; k < at.size(); ++k)
@@ -162,10 +163,10 @@ namespace
     DemParameters p     = SmallColumn::parameters();
     p.particles.gravity = 0.;
     SmallColumn column(p);
-    column.dem.insert({ Point<3>(0., 0., 0.0015), Point<3>(3e-3, 0., 0.0285) });
-    column.set_velocity(0, Vector({ 0., 0., 1. }));
+    column.dem.insert({Point<3>(0., 0., 0.0015), Point<3>(3e-3, 0., 0.0285)});
+    column.set_velocity(0, Vector({0., 0., 1.}));
     if (column.row(1) >= 0)
-      column.dem.particles().external_force[column.row(1)] = Vector({ 0., 0., -8e-4 });
+      column.dem.particles().external_force[column.row(1)] = Vector({0., 0., -8e-4});
     column.dem.advance(0.025);
     EXPECT_NEAR(column.position(0)[2], 0.0265, 1e-12);
     const double acceleration = 8e-4 / p.particles.simulated_mass();

@@ -13,14 +13,15 @@ namespace graupel
   struct SmallColumn
   {
     explicit SmallColumn(const DemParameters &parameters,
-                         MPI_Comm communicator    = MPI_COMM_WORLD,
-                         const Cylinder &cylinder = vessel())
-        : mesh(cylinder, mesh_parameters(), communicator)
-        , dem(parameters, mesh, costs)
+                         MPI_Comm             communicator = MPI_COMM_WORLD,
+                         const Cylinder      &cylinder     = vessel())
+      : mesh(cylinder, mesh_parameters(), communicator)
+      , dem(parameters, mesh, costs)
     {
     }
 
-    static Cylinder vessel()
+    static Cylinder
+    vessel()
     {
       Cylinder cylinder;
       cylinder.diameter = 0.01;
@@ -28,14 +29,16 @@ namespace graupel
       return cylinder;
     }
 
-    static MeshParameters mesh_parameters()
+    static MeshParameters
+    mesh_parameters()
     {
       MeshParameters parameters;
       parameters.cell_size = 2.5e-3;
       return parameters;
     }
 
-    static DemParameters parameters()
+    static DemParameters
+    parameters()
     {
       DemParameters parameters;
       parameters.particles.diameter = 2e-3;
@@ -43,7 +46,8 @@ namespace graupel
     }
 
     /** The own row of a particle, or -1 if another rank has it. */
-    int row(const std::int64_t id) const
+    int
+    row(const std::int64_t id) const
     {
       const auto &p = dem.particles();
       for (unsigned int i = 0; i < p.n_owned; ++i)
@@ -52,7 +56,8 @@ namespace graupel
       return -1;
     }
 
-    void set_velocity(const std::int64_t id, const dealii::Tensor<1, 3> &velocity)
+    void
+    set_velocity(const std::int64_t id, const dealii::Tensor<1, 3> &velocity)
     {
       if (row(id) >= 0)
         dem.particles().velocity[row(id)] = velocity;
@@ -60,7 +65,7 @@ namespace graupel
 
     /** A vector of one particle, on all ranks. */
     dealii::Tensor<1, 3>
-    everywhere(const std::int64_t id,
+    everywhere(const std::int64_t                id,
                std::vector<dealii::Tensor<1, 3>> ParticleArrays::*what) const
     {
       dealii::Tensor<1, 3> value;
@@ -69,12 +74,14 @@ namespace graupel
       return dealii::Utilities::MPI::sum(value, dem.communicator());
     }
 
-    dealii::Tensor<1, 3> velocity(const std::int64_t id) const
+    dealii::Tensor<1, 3>
+    velocity(const std::int64_t id) const
     {
       return everywhere(id, &ParticleArrays::velocity);
     }
 
-    dealii::Point<3> position(const std::int64_t id) const
+    dealii::Point<3>
+    position(const std::int64_t id) const
     {
       dealii::Tensor<1, 3> value;
       if (row(id) >= 0)
@@ -83,16 +90,17 @@ namespace graupel
     }
 
     /** Position, velocity, spin and force of every particle by id, on all ranks. */
-    std::map<std::int64_t, std::vector<double>> state() const
+    std::map<std::int64_t, std::vector<double>>
+    state() const
     {
       std::map<std::int64_t, std::vector<double>> mine, all;
-      const auto &p = dem.particles();
+      const auto                                 &p = dem.particles();
       for (unsigned int i = 0; i < p.n_owned; ++i)
-        for (const dealii::Tensor<1, 3> &v : { dealii::Tensor<1, 3>(p.position[i]),
-                                               p.velocity[i],
-                                               p.spin[i],
-                                               p.force[i],
-                                               p.torque[i] })
+        for (const dealii::Tensor<1, 3> &v : {dealii::Tensor<1, 3>(p.position[i]),
+                                              p.velocity[i],
+                                              p.spin[i],
+                                              p.force[i],
+                                              p.torque[i]})
           for (unsigned int d = 0; d < 3; ++d)
             mine[p.id[i]].push_back(v[d]);
       for (const auto &of_rank :
@@ -102,8 +110,8 @@ namespace graupel
     }
 
     CylinderMesh mesh;
-    CostSheet costs;
-    Dem dem;
+    CostSheet    costs;
+    Dem          dem;
   };
 } // namespace graupel
 

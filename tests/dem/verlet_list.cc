@@ -30,7 +30,8 @@ namespace
         }
     }
 
-    bool near(const unsigned int i, const unsigned int j, const double beyond) const
+    bool
+    near(const unsigned int i, const unsigned int j, const double beyond) const
     {
       return particles.position[i].distance(particles.position[j]) <
              particles.radius[i] + particles.radius[j] + beyond;
@@ -38,7 +39,8 @@ namespace
 
     using Pairs = std::set<std::pair<unsigned int, unsigned int>>;
 
-    Pairs brute_force(const double beyond) const
+    Pairs
+    brute_force(const double beyond) const
     {
       Pairs pairs;
       for (unsigned int i = 0; i < particles.n_rows(); ++i)
@@ -49,18 +51,19 @@ namespace
       return pairs;
     }
 
-    static Pairs as_set(const std::vector<NeighborPair> &list)
+    static Pairs
+    as_set(const std::vector<NeighborPair> &list)
     {
       Pairs pairs;
       for (const auto &pair : list)
-        pairs.insert({ pair.first, pair.second });
+        pairs.insert({pair.first, pair.second});
       return pairs;
     }
 
-    std::mt19937 generator{ 7 };
-    ParticleArrays particles;
-    const double skin             = 0.5e-3;
-    const std::vector<Wall> walls = vessel_walls({ 0.024, 0.042 });
+    std::mt19937            generator{7};
+    ParticleArrays          particles;
+    const double            skin  = 0.5e-3;
+    const std::vector<Wall> walls = vessel_walls({0.024, 0.042});
   };
 
   // The list is the set of all pairs within the sum of radii plus skin, each
@@ -86,7 +89,7 @@ namespace
   // in the list.
   TEST_F(VerletListTest, HoldsUnderMotion)
   {
-    VerletList list(skin);
+    VerletList                       list(skin);
     std::normal_distribution<double> normal;
     for (unsigned int round = 0; round < 20; ++round)
       {
@@ -94,7 +97,7 @@ namespace
         for (auto &x : particles.position)
           {
             dealii::Tensor<1, 3> direction(
-                { normal(generator), normal(generator), normal(generator) });
+              {normal(generator), normal(generator), normal(generator)});
             x += 0.499 * skin / direction.norm() * direction;
           }
         const auto listed = as_set(list.pairs);

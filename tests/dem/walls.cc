@@ -8,9 +8,10 @@ namespace
   using namespace graupel;
   using dealii::Point;
 
-  Cylinder vessel()
+  Cylinder
+  vessel()
   {
-    return { 0.025, 0.169 };
+    return {0.025, 0.169};
   }
 
   // Distance and outward normal of the tube, at 0.99 of its radius and beyond,
@@ -18,12 +19,12 @@ namespace
   TEST(Walls, TubeNearAndBeyondTheWall)
   {
     const auto walls = vessel_walls(vessel());
-    for (const double relative : { 1e-3, 0.5, 0.99, 1., 1.01 })
+    for (const double relative : {1e-3, 0.5, 0.99, 1., 1.01})
       for (double angle = 0.; angle < 6.2; angle += 0.3)
         {
-          const double rho = relative * 0.0125;
+          const double   rho = relative * 0.0125;
           const Point<3> x(rho * std::cos(angle), rho * std::sin(angle), 0.1);
-          const auto g = walls[lateral_wall].at(x);
+          const auto     g = walls[lateral_wall].at(x);
           EXPECT_NEAR(g.distance, 0.0125 - rho, 1e-16);
           EXPECT_NEAR(g.normal[0], std::cos(angle), 1e-12);
           EXPECT_NEAR(g.normal[1], std::sin(angle), 1e-12);
@@ -41,7 +42,7 @@ namespace
   // Bottom at z = 0 with normal down, top at z = height with normal up.
   TEST(Walls, BottomAndTop)
   {
-    const auto walls = vessel_walls(vessel());
+    const auto     walls = vessel_walls(vessel());
     const Point<3> x(0.003, -0.002, 0.0012);
     EXPECT_NEAR(walls[bottom_wall].at(x).distance, 0.0012, 1e-16);
     EXPECT_EQ(walls[bottom_wall].at(x).normal[2], -1.);
@@ -58,8 +59,8 @@ namespace
     for (std::int64_t k = 0; k < 14; ++k)
       EXPECT_TRUE(table.add(1,
                             k,
-                            { dealii::Tensor<1, 3>({ 0.1 * k, 1. / 3., -1. * k }),
-                              dealii::Tensor<1, 3>({ k + 0.7, 0., 1e-30 }) }));
+                            {dealii::Tensor<1, 3>({0.1 * k, 1. / 3., -1. * k}),
+                             dealii::Tensor<1, 3>({k + 0.7, 0., 1e-30})}));
     EXPECT_TRUE(table.add(1, wall_id(lateral_wall), {}));
     EXPECT_TRUE(table.add(1, wall_id(bottom_wall), {}));
     EXPECT_FALSE(table.add(1, 99, {}));

@@ -12,12 +12,14 @@ namespace
   // A short column with a few hundred cells, the flow in it, and its medium.
   struct Column
   {
-    explicit Column(const FlowParameters &parameters = {}, const double cell_size = 3.2e-3)
+    explicit Column(const FlowParameters &parameters = {},
+                    const double          cell_size  = 3.2e-3)
       : mesh({0.025, 0.05}, {cell_size}, MPI_COMM_WORLD)
       , nodes(mesh)
       , flow(parameters, air_density, air_viscosity, nodes, costs)
       , medium(nodes)
-    {}
+    {
+    }
 
     void
     set(const std::function<double(const dealii::Point<3> &)> &void_fraction,
@@ -42,7 +44,8 @@ namespace
     double
     pressure_drop() const
     {
-      return flow.mean_pressure(CylinderMesh::bottom) - flow.mean_pressure(CylinderMesh::top);
+      return flow.mean_pressure(CylinderMesh::bottom) -
+             flow.mean_pressure(CylinderMesh::top);
     }
 
     CostSheet    costs;
@@ -56,9 +59,9 @@ namespace
 TEST(TimeScheme, DifferentiatesPolynomialsExactly)
 {
   // BDF1 is exact for linear, BDF2 for quadratic functions, with any steps.
-  const double step = 0.3, last = 0.7, t = 2.;
-  const auto   linear    = [](const double x) { return 3. * x - 1.; };
-  const auto   quadratic = [&](const double x) { return 2. * x * x + linear(x); };
+  const double     step = 0.3, last = 0.7, t = 2.;
+  const auto       linear    = [](const double x) { return 3. * x - 1.; };
+  const auto       quadratic = [&](const double x) { return 2. * x * x + linear(x); };
   const TimeScheme first = bdf1(step), second = bdf2(step, last);
   EXPECT_NEAR(first.now * linear(t) + first.old * linear(t - step), 3., 1e-12);
   EXPECT_NEAR(second.now * quadratic(t) + second.old * quadratic(t - step) +
@@ -81,8 +84,9 @@ TEST(FlowSolver, DropsTheDarcyPressureInAUniformBed)
       for (unsigned int n = 0; n < 6; ++n)
         report = column.flow.step(column.medium, step);
       const double drop = column.pressure_drop();
-      std::cout << "step " << step << " s: " << drop << " Pa of " << expected << ", iterations "
-                << report.iterations << ", mass " << report.mass_imbalance << std::endl;
+      std::cout << "step " << step << " s: " << drop << " Pa of " << expected
+                << ", iterations " << report.iterations << ", mass "
+                << report.mass_imbalance << std::endl;
       EXPECT_NEAR(drop, expected, (step < 1e-3 ? 1e-4 : 1e-8) * expected);
       EXPECT_LE(report.mass_imbalance, 1e-9);
     }
@@ -103,7 +107,7 @@ TEST(FlowSolver, CrossesAJumpOfTheVoidFraction)
     report = column.flow.step(column.medium, 5e-3);
   // The nodes up to the surface carry drag, each over the length of its basis
   // function: the bed's length plus half a cell.
-  double length = 0.;
+  double      length  = 0.;
   const auto &measure = column.nodes.measure();
   for (unsigned int k = 0; k < measure.locally_owned_size(); ++k)
     if (column.medium.drag.local_element(k) > 0.)
@@ -113,8 +117,8 @@ TEST(FlowSolver, CrossesAJumpOfTheVoidFraction)
   const double expected = drag * velocity / (alpha * alpha) * length;
   const double bernoulli =
     0.5 * air_density * velocity * velocity * (1. / (alpha * alpha) - 1.);
-  std::cout << column.pressure_drop() << " Pa of " << expected << " (Bernoulli " << bernoulli
-            << "), iterations " << report.iterations << std::endl;
+  std::cout << column.pressure_drop() << " Pa of " << expected << " (Bernoulli "
+            << bernoulli << "), iterations " << report.iterations << std::endl;
   EXPECT_NEAR(column.pressure_drop(), expected, 0.01 * expected);
   EXPECT_LE(report.mass_imbalance, 1e-9);
 }
@@ -144,7 +148,7 @@ TEST(FlowSolver, StoresWhatTheVoidFractionFrees)
   double volume = 0.;
   for (unsigned int k = 0; k < column.nodes.measure().locally_owned_size(); ++k)
     volume += column.nodes.measure().local_element(k);
-  volume = dealii::Utilities::MPI::sum(volume, MPI_COMM_WORLD);
+  volume                = dealii::Utilities::MPI::sum(volume, MPI_COMM_WORLD);
   const double inflow   = 0.2 * column.mesh.cylinder().cross_section();
   const double expected = inflow - 1. * volume;
   EXPECT_NEAR(column.flow.outflow(), expected, 1e-4 * inflow)

@@ -21,16 +21,15 @@ namespace
   Measures
   measure(const CylinderMesh &mesh)
   {
-    const dealii::FE_Nothing<3>  nothing;
-    const dealii::QGauss<3>      points(3);
-    const dealii::QGauss<2>      face_points(3);
-    dealii::FEValues<3>          cell_values(mesh.mapping(), nothing, points, dealii::update_JxW_values);
-    dealii::FEFaceValues<3>      face_values(mesh.mapping(),
-                                        nothing,
-                                        face_points,
-                                        dealii::update_JxW_values);
-    Measures                     sum;
-    std::array<double, 3>        areas{};
+    const dealii::FE_Nothing<3> nothing;
+    const dealii::QGauss<3>     points(3);
+    const dealii::QGauss<2>     face_points(3);
+    dealii::FEValues<3>         cell_values(
+      mesh.mapping(), nothing, points, dealii::update_JxW_values);
+    dealii::FEFaceValues<3> face_values(
+      mesh.mapping(), nothing, face_points, dealii::update_JxW_values);
+    Measures              sum;
+    std::array<double, 3> areas{};
     for (const auto &cell : mesh.triangulation().active_cell_iterators())
       if (cell->is_locally_owned())
         {
@@ -68,14 +67,17 @@ TEST(CylinderMesh, FillsTheCylinderToTheOrderOfTheMapping)
       // A quadratic arc over an angle t errs by t^4 in area: with 16 arcs round
       // the coarse circle below 1e-4, and 16 times less after one refinement.
       EXPECT_LE(error, 1e-3) << "volume " << found.volume << " of " << volume;
-      EXPECT_NEAR(found.bottom, cylinder.cross_section(), 1e-3 * cylinder.cross_section());
+      EXPECT_NEAR(
+        found.bottom, cylinder.cross_section(), 1e-3 * cylinder.cross_section());
       EXPECT_NEAR(found.top, found.bottom, 1e-10 * found.bottom);
       EXPECT_NEAR(found.wall,
                   dealii::numbers::PI * cylinder.diameter * cylinder.height,
                   1e-3 * found.wall);
       if (last_error > 0.)
-        EXPECT_NEAR(std::log2(last_error / error), 4., 0.3)
-          << "errors " << last_error << " and " << error;
+        {
+          EXPECT_NEAR(std::log2(last_error / error), 4., 0.3)
+            << "errors " << last_error << " and " << error;
+        }
       last_error = error;
     }
 }
@@ -105,5 +107,6 @@ TEST(CylinderMesh, RefusesImpossibleSizes)
   EXPECT_EQ(parameter_refused([] { Cylinder{0.1, -1.}.check(); }), "Geometry/height");
   EXPECT_EQ(parameter_refused([] { MeshParameters{std::nan("")}.check(Cylinder{}); }),
             "Mesh/cell size");
-  EXPECT_EQ(parameter_refused([] { MeshParameters{0.02}.check(Cylinder{}); }), "Mesh/cell size");
+  EXPECT_EQ(parameter_refused([] { MeshParameters{0.02}.check(Cylinder{}); }),
+            "Mesh/cell size");
 }

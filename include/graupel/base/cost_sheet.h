@@ -35,14 +35,16 @@ namespace graupel
       Scope(CostSheet &sheet, const Section section)
         : seconds(sheet.seconds[section])
         , start(std::chrono::steady_clock::now())
-      {}
+      {
+      }
 
       ~Scope()
       {
-        seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+        seconds +=
+          std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
       }
 
-      Scope(const Scope &) = delete;
+      Scope(const Scope &)            = delete;
       Scope &operator=(const Scope &) = delete;
 
     private:

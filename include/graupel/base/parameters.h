@@ -32,8 +32,9 @@ namespace graupel
    * Throws InputError(parameter, reason) unless @p condition holds. Written so
    * that a NaN fails: pass the condition that must hold, not its opposite.
    */
-  void
-  require(const bool condition, const std::string &parameter, const std::string &reason);
+  void require(const bool         condition,
+               const std::string &parameter,
+               const std::string &reason);
 
   /**
    * Reads parameter files and --set overrides into a ParameterHandler whose
@@ -73,16 +74,17 @@ namespace graupel
     const std::vector<std::string> &known_parameters() const;
 
   private:
-    void
-    assign(const std::string &path, const std::string &value, const std::string &origin);
+    void assign(const std::string &path,
+                const std::string &value,
+                const std::string &origin);
 
-    dealii::ParameterHandler &handler;
-    std::vector<std::string> known;
+    dealii::ParameterHandler          &handler;
+    std::vector<std::string>           known;
     std::map<std::string, std::string> origins;
   };
 
   /** The element of @p known with the least edit distance to @p name. */
-  std::string nearest_name(const std::string &name,
+  std::string nearest_name(const std::string              &name,
                            const std::vector<std::string> &known);
 } // namespace graupel
 

@@ -29,9 +29,9 @@ namespace graupel
      * lines to @p log, which may be null. The streams must outlive this object.
      */
     Progress(std::ostream &out,
-             const bool rewrites,
+             const bool    rewrites,
              std::ostream *log,
-             const Clock &clock = steady_seconds);
+             const Clock  &clock = steady_seconds);
 
     /** A phase begins that leads from @p begin to @p end, simulated times [s]. */
     void start_phase(const std::string &name, const double begin, const double end);
@@ -49,18 +49,18 @@ namespace graupel
 
   private:
     std::string line() const;
-    void write_plain(std::ostream &stream) const;
+    void        write_plain(std::ostream &stream) const;
 
-    std::ostream *out = nullptr;
-    std::ostream *log = nullptr;
-    bool rewrites     = false;
-    Clock clock       = steady_seconds;
+    std::ostream *out      = nullptr;
+    std::ostream *log      = nullptr;
+    bool          rewrites = false;
+    Clock         clock    = steady_seconds;
 
     std::string phase;
-    double begin = 0., end = 0., time = 0.;
-    double wall_at_begin = 0.;
-    double last_rewrite = 0., last_plain = 0.;
-    bool line_open = false;
+    double      begin = 0., end = 0., time = 0.;
+    double      wall_at_begin = 0.;
+    double      last_rewrite = 0., last_plain = 0.;
+    bool        line_open = false;
   };
 
   /**

@@ -19,25 +19,25 @@ namespace graupel
    * eqs. 6 and 7.
    */
   double ergun_pressure_gradient(const FluidProperties &fluid,
-                                 const double diameter,
-                                 const double alpha,
-                                 const double superficial_velocity);
+                                 const double           diameter,
+                                 const double           alpha,
+                                 const double           superficial_velocity);
 
   /** The gradient above times the @p length [m] of the bed [Pa]. */
   double ergun_pressure_drop(const FluidProperties &fluid,
-                             const double diameter,
-                             const double alpha,
-                             const double superficial_velocity,
-                             const double length);
+                             const double           diameter,
+                             const double           alpha,
+                             const double           superficial_velocity,
+                             const double           length);
 
   /**
    * Superficial velocity [m/s] at which the gradient above is @p gradient
    * >= 0 [Pa/m]: the positive root, V = 2 G / (a + sqrt(a^2 + 4 b G)).
    */
   double ergun_superficial_velocity(const FluidProperties &fluid,
-                                    const double diameter,
-                                    const double alpha,
-                                    const double gradient);
+                                    const double           diameter,
+                                    const double           alpha,
+                                    const double           gradient);
 
   /**
    * Superficial velocity [m/s] at the onset of fluidisation, where Ergun's
@@ -46,10 +46,10 @@ namespace graupel
    * [m/s^2]; 0 for spheres that float.
    */
   double ergun_onset_velocity(const FluidProperties &fluid,
-                              const double diameter,
-                              const double alpha,
-                              const double particle_density,
-                              const double gravity = 9.81);
+                              const double           diameter,
+                              const double           alpha,
+                              const double           particle_density,
+                              const double           gravity = 9.81);
 
   /** Flow area [m^2] and void fraction [-] of one of several channels side by side. */
   struct Channel
@@ -67,8 +67,8 @@ namespace graupel
    * Throws std::invalid_argument without channels, and for a
    * channel without area or with a void fraction outside (0, 1].
    */
-  double parallel_channels_pressure_gradient(const FluidProperties &fluid,
-                                             const double diameter,
+  double parallel_channels_pressure_gradient(const FluidProperties      &fluid,
+                                             const double                diameter,
                                              const std::vector<Channel> &channels,
                                              const double superficial_velocity);
 } // namespace graupel

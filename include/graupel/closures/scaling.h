@@ -23,9 +23,9 @@ namespace graupel
    * law; a law that switches does so at the original Reynolds number.
    */
   double exact_drag_number(const DragLaw &law,
-                           const double alpha,
-                           const double reynolds,
-                           const double scale);
+                           const double   alpha,
+                           const double   reynolds,
+                           const double   scale);
 
   /**
    * The closure as printed, C_in = s (s C(Re_s) - 1.75), limited to positive
@@ -34,9 +34,9 @@ namespace graupel
    * Source: Ricklick & Baran (2014), eqs. 12 to 15.
    */
   double ricklick_baran_drag_number(const DragLaw &law,
-                                    const double alpha,
-                                    const double reynolds,
-                                    const double scale);
+                                    const double   alpha,
+                                    const double   reynolds,
+                                    const double   scale);
 
   /**
    * A formula of the user's for C_in, in muParser's syntax, of the variables
@@ -55,15 +55,16 @@ namespace graupel
   public:
     /** Throws InputError("Coupling/scaling expression", ...) if it does not parse. */
     ScalingExpression(const std::string &formula,
-                      const double scale,
-                      const double diameter);
+                      const double       scale,
+                      const double       diameter);
 
     /**
      * N_in [-]. Throws std::runtime_error with Re and alpha if the formula
      * gives a negative value, or none.
      */
-    double
-    drag_number(const DragLaw &law, const double alpha, const double reynolds) const;
+    double drag_number(const DragLaw &law,
+                       const double   alpha,
+                       const double   reynolds) const;
 
   private:
     struct Compiled;
@@ -101,10 +102,10 @@ namespace graupel
   {
   public:
     /** @p diameter of the original spheres [m], @p scale at least 1 [-]. */
-    Drag(const DragParameters &parameters,
+    Drag(const DragParameters  &parameters,
          const FluidProperties &fluid,
-         const double diameter,
-         const double scale);
+         const double           diameter,
+         const double           scale);
 
     /**
      * beta_p [kg/s] of one simulated sphere in F = beta_p (u - v), at the void
@@ -131,11 +132,11 @@ namespace graupel
 
     double drag_number(const double alpha, const double reynolds) const;
 
-    const DragLaw *drag_law;
-    Form form;
-    double scale;
-    double reynolds_per_slip;
-    double beta_per_drag_number;
+    const DragLaw                           *drag_law;
+    Form                                     form;
+    double                                   scale;
+    double                                   reynolds_per_slip;
+    double                                   beta_per_drag_number;
     std::shared_ptr<const ScalingExpression> expression;
   };
 } // namespace graupel

@@ -13,7 +13,7 @@ namespace graupel
   /** How particles and fluid feel each other, beside the drag law. */
   struct CouplingParameters
   {
-    /** A length [m], or "auto": 0.75 diameters of a simulated particle. */
+    /** A length [m], or "auto": the simulated diameter / sqrt(2). */
     std::string filter_length = "auto";
 
     /** Declares its entry in the section "Coupling". */
@@ -40,7 +40,10 @@ namespace graupel
   {
   public:
     /** @p filter_length [m]; @p nodes and @p costs must outlive this object. */
-    Exchange(const double filter_length, const Drag &drag, const NodalSpace &nodes, CostSheet &costs);
+    Exchange(const double      filter_length,
+             const Drag       &drag,
+             const NodalSpace &nodes,
+             CostSheet        &costs);
 
     /**
      * Void fraction and drag coefficients from where the particles are (the
@@ -101,12 +104,12 @@ namespace graupel
     Medium            result;
     NodalVector       solid_fraction, scratch;
 
-    NodalVectorField    interstitial;          // u [m/s]
-    NodalVectorField    smooth_velocity;       // S u [m/s]
-    NodalVectorField    smooth_gradient;       // S grad p [Pa/m]
-    std::vector<double> volume, beta;          // by row [m^3], [kg/s]
+    NodalVectorField     interstitial;    // u [m/s]
+    NodalVectorField     smooth_velocity; // S u [m/s]
+    NodalVectorField     smooth_gradient; // S grad p [Pa/m]
+    std::vector<double>  volume, beta;    // by row [m^3], [kg/s]
     dealii::Tensor<1, 3> fluid_force;
-    double              momentum_error = 0., volume_error = 0.;
+    double               momentum_error = 0., volume_error = 0.;
   };
 } // namespace graupel
 

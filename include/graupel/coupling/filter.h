@@ -59,9 +59,9 @@ namespace graupel
     const NodalSpace                      &nodes;
     dealii::TrilinosWrappers::SparseMatrix stiffness;
     NodalVector                            inverse_measure;
-    double                                 largest_eigenvalue = 0.; // an upper bound [1/m^2]
-    std::vector<double>                    coefficients;            // of the Chebyshev series
-    unsigned int                           repetitions = 1;
+    double              largest_eigenvalue = 0.; // an upper bound [1/m^2]
+    std::vector<double> coefficients;            // of the Chebyshev series
+    unsigned int        repetitions = 1;
   };
 } // namespace graupel
 

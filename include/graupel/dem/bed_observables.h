@@ -21,8 +21,8 @@ namespace graupel
   public:
     /** Both must outlive this object. The particles may move and change. */
     BedObservables(const ParticleArrays &particles,
-                   const Cylinder &cylinder,
-                   MPI_Comm communicator);
+                   const Cylinder       &cylinder,
+                   MPI_Comm              communicator);
 
     /**
      * Volume of solid below each of the planes z = @p planes [m^3], spheres cut
@@ -71,8 +71,8 @@ namespace graupel
     double largest_radius() const;
 
     const ParticleArrays &particles;
-    const Cylinder &cylinder;
-    MPI_Comm communicator;
+    const Cylinder       &cylinder;
+    MPI_Comm              communicator;
   };
 } // namespace graupel
 

@@ -57,9 +57,9 @@ namespace graupel
 
     PairMaterial(const Elasticity &first,
                  const Elasticity &second,
-                 const Surface &surface,
-                 const double normal_stiffness,
-                 const double stiffness_ratio);
+                 const Surface    &surface,
+                 const double      normal_stiffness,
+                 const double      stiffness_ratio);
   };
 
   /** Geometry and motion of two touching bodies. */
@@ -126,17 +126,18 @@ namespace graupel
    */
   struct HertzMindlin
   {
-    static Stiffness stiffness(const PairMaterial &pair, const Contact &contact)
+    static Stiffness
+    stiffness(const PairMaterial &pair, const Contact &contact)
     {
       const double a   = std::sqrt(contact.radius * contact.overlap);
       const double S_n = 2. * pair.young * a;
       const double S_t = 8. * pair.shear * a;
       const double gamma =
-          2. * std::sqrt(5. / 6.) * pair.damping * std::sqrt(S_n * contact.mass);
-      return { 4. / 3. * pair.young * a * contact.overlap,
-               gamma,
-               S_t,
-               gamma * pair.mindlin_damping_ratio };
+        2. * std::sqrt(5. / 6.) * pair.damping * std::sqrt(S_n * contact.mass);
+      return {4. / 3. * pair.young * a * contact.overlap,
+              gamma,
+              S_t,
+              gamma * pair.mindlin_damping_ratio};
     }
   };
 
@@ -147,17 +148,19 @@ namespace graupel
    */
   struct LinearSpring
   {
-    static Stiffness stiffness(const PairMaterial &pair, const Contact &contact)
+    static Stiffness
+    stiffness(const PairMaterial &pair, const Contact &contact)
     {
       const double k_n   = pair.normal_stiffness;
       const double k_t   = pair.stiffness_ratio * k_n;
       const double gamma = 2. * pair.damping * std::sqrt(k_n * contact.mass);
-      return { k_n * contact.overlap, gamma, k_t, gamma * pair.linear_damping_ratio };
+      return {k_n * contact.overlap, gamma, k_t, gamma * pair.linear_damping_ratio};
     }
   };
 
   /** Turns a spring into the plane normal to @p n and keeps its length. */
-  inline void turn_into_plane(dealii::Tensor<1, 3> &spring, const dealii::Tensor<1, 3> &n)
+  inline void
+  turn_into_plane(dealii::Tensor<1, 3> &spring, const dealii::Tensor<1, 3> &n)
   {
     const double out = spring * n;
     if (out == 0.)
@@ -174,8 +177,8 @@ namespace graupel
   }
 
   /** The part of a vector in the plane normal to @p n. */
-  inline dealii::Tensor<1, 3> in_plane(const dealii::Tensor<1, 3> &vector,
-                                       const dealii::Tensor<1, 3> &n)
+  inline dealii::Tensor<1, 3>
+  in_plane(const dealii::Tensor<1, 3> &vector, const dealii::Tensor<1, 3> &n)
   {
     return vector - (vector * n) * n;
   }
@@ -203,16 +206,17 @@ namespace graupel
    */
   struct ConstantRollingTorque
   {
-    static dealii::Tensor<1, 3> torque(const PairMaterial &pair,
-                                       const Contact &contact,
-                                       const double normal_force,
-                                       const double,
-                                       Springs &)
+    static dealii::Tensor<1, 3>
+    torque(const PairMaterial &pair,
+           const Contact      &contact,
+           const double        normal_force,
+           const double,
+           Springs &)
     {
       const double limit = pair.rolling_resistance * contact.radius * normal_force;
       if (!(limit > 0.))
         return {};
-      const auto w         = in_plane(contact.spin_drift, contact.normal);
+      const auto   w       = in_plane(contact.spin_drift, contact.normal);
       const double inertia = 0.4 * contact.mass * contact.radius * contact.radius;
       const double w_c     = 2. * limit * contact.step / inertia;
       return (-limit / std::max(w.norm(), w_c)) * w;
@@ -227,11 +231,12 @@ namespace graupel
    */
   struct SpringRolling
   {
-    static dealii::Tensor<1, 3> torque(const PairMaterial &pair,
-                                       const Contact &contact,
-                                       const double normal_force,
-                                       const double tangential_stiffness,
-                                       Springs &springs)
+    static dealii::Tensor<1, 3>
+    torque(const PairMaterial &pair,
+           const Contact      &contact,
+           const double        normal_force,
+           const double        tangential_stiffness,
+           Springs            &springs)
     {
       const double limit = pair.rolling_resistance * contact.radius * normal_force;
       if (!(limit > 0.))
@@ -264,7 +269,7 @@ namespace graupel
   contact_action(const PairMaterial &pair, const Contact &contact, Springs &springs)
   {
     const Stiffness stiffness = NormalLaw::stiffness(pair, contact);
-    const auto &n             = contact.normal;
+    const auto     &n         = contact.normal;
 
     const double approach = contact.velocity * n;
     const double F_n      = stiffness.normal_force + stiffness.normal_damping * approach;
@@ -274,8 +279,8 @@ namespace graupel
     springs.tangential += contact.step * in_plane(contact.drift, n);
 
     dealii::Tensor<1, 3> F_t =
-        -stiffness.tangential * springs.tangential -
-        stiffness.tangential_damping * (contact.velocity - approach * n);
+      -stiffness.tangential * springs.tangential -
+      stiffness.tangential_damping * (contact.velocity - approach * n);
     const double limit        = pair.friction * pressing;
     const double trial_square = F_t.norm_square();
     if (trial_square > limit * limit)
@@ -284,8 +289,8 @@ namespace graupel
         springs.tangential = (-1. / stiffness.tangential) * F_t;
       }
 
-    return { F_t - F_n * n,
-             RollingLaw::torque(pair, contact, pressing, stiffness.tangential, springs) };
+    return {F_t - F_n * n,
+            RollingLaw::torque(pair, contact, pressing, stiffness.tangential, springs)};
   }
 
   /** The choice of laws, dispatched once a sweep over all contacts. */
@@ -297,8 +302,9 @@ namespace graupel
    * surface wave needs around a sphere [s].
    * Source: Li, Xu, Thornton (2005), doi:10.1016/j.powtec.2005.09.002.
    */
-  double
-  rayleigh_time(const double radius, const double density, const Elasticity &elasticity);
+  double rayleigh_time(const double      radius,
+                       const double      density,
+                       const Elasticity &elasticity);
 
   /** Overlap at which Hertz's law carries @p force: (3 F / (4 E* sqrt(R*)))^(2/3) [m]. */
   double hertz_overlap(const double force, const double young, const double radius);

@@ -30,7 +30,7 @@ namespace graupel
      * [m/s]. The same call on every rank, collective. Rows may change.
      */
     void insert(const std::vector<dealii::Point<3>> &positions,
-                const dealii::Tensor<1, 3> &velocity = dealii::Tensor<1, 3>());
+                const dealii::Tensor<1, 3>          &velocity = dealii::Tensor<1, 3>());
 
     /**
      * Moves all particles through @p duration [s], in the least whole number of
@@ -54,13 +54,15 @@ namespace graupel
     void set_friction(const double particles, const double walls);
 
     /** Sets the acceleration of gravity, along -z [m/s^2]. */
-    void set_gravity(const double acceleration)
+    void
+    set_gravity(const double acceleration)
     {
       gravity = acceleration;
     }
 
     /** Where the particles are in the mesh, as of the last synchronise(). */
-    const ParticleStore &store() const
+    const ParticleStore &
+    store() const
     {
       return particle_store;
     }
@@ -69,39 +71,46 @@ namespace graupel
      * The particles of this rank, at the present time. Velocities, spins and
      * external forces of own rows may be set; other members may not.
      */
-    ParticleArrays &particles()
+    ParticleArrays &
+    particles()
     {
       return arrays;
     }
 
-    const ParticleArrays &particles() const
+    const ParticleArrays &
+    particles() const
     {
       return arrays;
     }
 
-    const DemParameters &parameters() const
+    const DemParameters &
+    parameters() const
     {
       return input;
     }
 
-    const Cylinder &cylinder() const
+    const Cylinder &
+    cylinder() const
     {
       return mesh.cylinder();
     }
 
-    MPI_Comm communicator() const
+    MPI_Comm
+    communicator() const
     {
       return mesh.communicator();
     }
 
     /** Particles on all ranks. */
-    unsigned int n_global() const
+    unsigned int
+    n_global() const
     {
       return particle_store.n_global();
     }
 
     /** The longest substep in use [s]. */
-    double substep() const
+    double
+    substep() const
     {
       return longest_substep;
     }
@@ -112,20 +121,23 @@ namespace graupel
     double weight() const;
 
     /** Load pressed on the bottom, along gravity, mean of the last advance() [N]. */
-    double bottom_force() const
+    double
+    bottom_force() const
     {
       return -wall_loads[bottom_wall][2];
     }
 
     /** Load carried by the lateral wall, along gravity, mean of the last advance() [N].
      */
-    double wall_force() const
+    double
+    wall_force() const
     {
       return -wall_loads[lateral_wall][2];
     }
 
     /** Force on the wall of this number, mean of the last advance() [N]. */
-    const dealii::Tensor<1, 3> &force_on(const VesselWall wall) const
+    const dealii::Tensor<1, 3> &
+    force_on(const VesselWall wall) const
     {
       return wall_loads[wall];
     }
@@ -138,46 +150,47 @@ namespace graupel
     double coordination_number() const;
 
     /** Times that the neighbour list was built since the start. */
-    unsigned int n_list_builds() const
+    unsigned int
+    n_list_builds() const
     {
       return list_builds;
     }
 
   private:
-    void drift(const double dt);
-    void kick(const double dt);
-    void substep_by(const double dt);
-    void update_neighbors();
+    void        drift(const double dt);
+    void        kick(const double dt);
+    void        substep_by(const double dt);
+    void        update_neighbors();
     std::string first_problem() const;
-    void rebuild_list();
-    void save_springs();
+    void        rebuild_list();
+    void        save_springs();
 
     const DemParameters input;
     const CylinderMesh &mesh;
-    CostSheet &costs;
-    const double smallest_edge;
-    const double longest_substep;
-    const double skin;
-    Materials materials;
-    double gravity;
+    CostSheet          &costs;
+    const double        smallest_edge;
+    const double        longest_substep;
+    const double        skin;
+    Materials           materials;
+    double              gravity;
 
-    ParticleStore particle_store;
-    ParticleArrays arrays;
-    SpringTable spring_table;
+    ParticleStore           particle_store;
+    ParticleArrays          arrays;
+    SpringTable             spring_table;
     const std::vector<Wall> walls;
-    Halo halo;
-    VerletList list;
-    ContactSweep contacts;
+    Halo                    halo;
+    VerletList              list;
+    ContactSweep            contacts;
 
     std::vector<dealii::Tensor<1, 3>> wall_loads;
 
     // Positions at the last list, and how far any particle of any rank has
     // moved since; and the sum of such moves since the last migration.
     std::vector<dealii::Point<3>> listed_position;
-    double move_since_list      = 0.;
-    double move_since_migration = 0.;
-    bool list_is_valid          = false;
-    unsigned int list_builds    = 0;
+    double                        move_since_list      = 0.;
+    double                        move_since_migration = 0.;
+    bool                          list_is_valid        = false;
+    unsigned int                  list_builds          = 0;
   };
 } // namespace graupel
 

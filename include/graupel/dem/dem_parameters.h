@@ -23,7 +23,8 @@ namespace graupel
     double gravity = 9.81;
 
     /** Radius of a simulated particle [m]. */
-    double simulated_radius() const
+    double
+    simulated_radius() const
     {
       return 0.5 * scale * diameter;
     }
@@ -44,10 +45,10 @@ namespace graupel
     /** "spring-dashpot", "constant-torque" or "none". */
     std::string rolling_model = "spring-dashpot";
 
-    Elasticity particle_elasticity{ 1e7, 0.33 };
-    Elasticity wall_elasticity{ 1e7, 0.33 };
-    Surface particle_surface{ 0.5, 0.5, 0.1 };
-    Surface wall_surface{ 0.5, 0.5, 0.1 };
+    Elasticity particle_elasticity{1e7, 0.33};
+    Elasticity wall_elasticity{1e7, 0.33};
+    Surface    particle_surface{0.5, 0.5, 0.1};
+    Surface    wall_surface{0.5, 0.5, 0.1};
     /** Friction and rolling resistance [-] while the bed is filled and settles. */
     double packing_particle_friction = 0.08;
     double packing_particle_rolling  = 0.;
@@ -79,7 +80,7 @@ namespace graupel
   struct DemParameters
   {
     ParticleParameters particles;
-    ContactParameters contact;
+    ContactParameters  contact;
 
     void declare(dealii::ParameterHandler &prm);
     /** Throws InputError for values that cannot be, alone or together. */
@@ -100,7 +101,7 @@ namespace graupel
     /** Overlap that a static force makes between two particles [m]. */
     double overlap_under(const double force) const;
 
-    NormalLaws normal_law() const;
+    NormalLaws  normal_law() const;
     RollingLaws rolling_law() const;
     /** Numbers of contacts, with the friction of packing or that of the flow. */
     PairMaterial particle_pair(const bool packing) const;

@@ -22,31 +22,33 @@ namespace graupel
      * fit. If it is zero the sum is zero.
      */
     explicit ExactSum(const double largest)
-        : quantum(largest > 0. ? largest * 0x1p-36 : 0.)
-        , inverse(largest > 0. ? 1. / quantum : 0.)
+      : quantum(largest > 0. ? largest * 0x1p-36 : 0.)
+      , inverse(largest > 0. ? 1. / quantum : 0.)
     {
     }
 
-    void add(const double term)
+    void
+    add(const double term)
     {
       quanta += static_cast<std::int64_t>(term * inverse);
     }
 
     /** The sum over all ranks of @p communicator. Collective. */
-    double total(MPI_Comm communicator) const
+    double
+    total(MPI_Comm communicator) const
     {
-      return totals({ *this }, communicator)[0];
+      return totals({*this}, communicator)[0];
     }
 
     /** Several sums at once. Collective. */
-    static std::vector<double> totals(const std::vector<ExactSum> &sums,
-                                      MPI_Comm communicator)
+    static std::vector<double>
+    totals(const std::vector<ExactSum> &sums, MPI_Comm communicator)
     {
       std::vector<std::int64_t> quanta;
       for (const auto &sum : sums)
         quanta.push_back(sum.quanta);
       const int ierr = MPI_Allreduce(
-          MPI_IN_PLACE, quanta.data(), quanta.size(), MPI_INT64_T, MPI_SUM, communicator);
+        MPI_IN_PLACE, quanta.data(), quanta.size(), MPI_INT64_T, MPI_SUM, communicator);
       AssertThrowMPI(ierr);
 
       std::vector<double> results;
@@ -56,8 +58,8 @@ namespace graupel
     }
 
   private:
-    double quantum;
-    double inverse;
+    double       quantum;
+    double       inverse;
     std::int64_t quanta = 0;
   };
 } // namespace graupel

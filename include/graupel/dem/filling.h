@@ -50,7 +50,8 @@ namespace graupel
     bool step();
 
     /** Time since the beginning of the phase [s]. */
-    double time() const
+    double
+    time() const
     {
       return elapsed;
     }
@@ -65,22 +66,22 @@ namespace graupel
     double expected_height() const;
 
   private:
-    unsigned int n_missing();
-    void drop_layer(const unsigned int at_most);
+    unsigned int                  n_missing();
+    void                          drop_layer(const unsigned int at_most);
     std::vector<dealii::Point<3>> particles_above(const double z) const;
-    double next_random();
+    double                        next_random();
 
     const FillingParameters input;
-    Dem &dem;
-    const double radius;
-    const double layer_interval;
-    std::mt19937_64 generator;
+    Dem                    &dem;
+    const double            radius;
+    const double            layer_interval;
+    std::mt19937_64         generator;
 
     unsigned int target        = 0;
-    double elapsed             = 0.;
-    double next_drop           = 0.;
+    double       elapsed       = 0.;
+    double       next_drop     = 0.;
     unsigned int barren_layers = 0;
-    bool finished              = false;
+    bool         finished      = false;
   };
 } // namespace graupel
 

@@ -42,28 +42,28 @@ namespace graupel
   private:
     struct Neighbor
     {
-      int rank;
+      int                       rank;
       std::vector<unsigned int> rows;
-      unsigned int first_ghost;
-      unsigned int n_ghosts;
-      std::vector<double> outgoing;
-      std::vector<double> incoming;
+      unsigned int              first_ghost;
+      unsigned int              n_ghosts;
+      std::vector<double>       outgoing;
+      std::vector<double>       incoming;
     };
 
     std::vector<unsigned char> occupied_bins(const ParticleArrays &particles) const;
-    unsigned int bin(const dealii::Point<3> &x) const;
-    void choose_rows(const ParticleArrays &particles);
+    unsigned int               bin(const dealii::Point<3> &x) const;
+    void                       choose_rows(const ParticleArrays &particles);
     void exchange_identities(ParticleArrays &particles, const double density);
     void start_requests();
     void free_requests();
 
-    MPI_Comm communicator;
-    const unsigned int n_ranks;
-    dealii::Point<3> corner;
-    double bin_size;
+    MPI_Comm                    communicator;
+    const unsigned int          n_ranks;
+    dealii::Point<3>            corner;
+    double                      bin_size;
     std::array<unsigned int, 3> n_bins;
-    std::vector<Neighbor> neighbors;
-    std::vector<MPI_Request> requests;
+    std::vector<Neighbor>       neighbors;
+    std::vector<MPI_Request>    requests;
   };
 } // namespace graupel
 

@@ -52,7 +52,8 @@ namespace graupel
     unsigned int n_owned = 0;
 
     /** Own rows and ghosts. */
-    unsigned int n_rows() const
+    unsigned int
+    n_rows() const
     {
       return id.size();
     }

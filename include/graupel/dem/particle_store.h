@@ -28,9 +28,9 @@ namespace graupel
   public:
     using CellIterator = dealii::Triangulation<3>::active_cell_iterator;
     using CellVisitor =
-        std::function<void(const CellIterator &cell,
-                           const unsigned int first_row,
-                           const std::vector<dealii::Point<3>> &reference_locations)>;
+      std::function<void(const CellIterator                  &cell,
+                         const unsigned int                   first_row,
+                         const std::vector<dealii::Point<3>> &reference_locations)>;
 
     /** @p density: of all particles [kg/m^3]. @p mesh must outlive the store. */
     ParticleStore(const CylinderMesh &mesh, const double density);
@@ -43,8 +43,8 @@ namespace graupel
      * DemError for a point outside the mesh.
      */
     void insert(const std::vector<dealii::Point<3>> &positions,
-                const double radius,
-                const dealii::Tensor<1, 3> &velocity);
+                const double                         radius,
+                const dealii::Tensor<1, 3>          &velocity);
 
     /**
      * Finds the cell and rank of every particle and moves it there. Collective.
@@ -71,12 +71,14 @@ namespace graupel
     void visit_cells(const CellVisitor &visit) const;
 
     /** Particles on all ranks. */
-    unsigned int n_global() const
+    unsigned int
+    n_global() const
     {
       return n_expected;
     }
 
-    MPI_Comm communicator() const
+    MPI_Comm
+    communicator() const
     {
       return mesh.communicator();
     }
@@ -84,20 +86,21 @@ namespace graupel
   private:
     struct Location
     {
-      CellIterator cell;
+      CellIterator     cell;
       dealii::Point<3> reference;
-      bool found = false;
+      bool             found = false;
     };
 
     // A particle on its way into a cell, with all that it has.
     struct Traveller
     {
-      unsigned int id;
-      dealii::Point<3> position;
+      unsigned int        id;
+      dealii::Point<3>    position;
       std::vector<double> properties;
 
       template <class Archive>
-      void serialize(Archive &archive, const unsigned int)
+      void
+      serialize(Archive &archive, const unsigned int)
       {
         archive &id &position &properties;
       }
@@ -108,21 +111,21 @@ namespace graupel
     // Puts each traveller, the same on all ranks, into a cell of the lowest rank
     // that has one for it; tells which ones found a cell. Collective.
     std::vector<bool> place(const std::vector<Traveller> &travellers);
-    void bring_home_strays();
-    void check_count() const;
+    void              bring_home_strays();
+    void              check_count() const;
 
     struct CellRows
     {
-      CellIterator cell;
-      unsigned int first_row;
+      CellIterator                  cell;
+      unsigned int                  first_row;
       std::vector<dealii::Point<3>> reference_locations;
     };
 
-    const CylinderMesh &mesh;
-    const double density;
-    dealii::GridTools::Cache<3> cache;
+    const CylinderMesh                   &mesh;
+    const double                          density;
+    dealii::GridTools::Cache<3>           cache;
     dealii::Particles::ParticleHandler<3> handler;
-    std::vector<CellRows> cells;
+    std::vector<CellRows>                 cells;
 
     // What all ranks together must hold, and the next id to give away.
     unsigned int n_expected = 0;
@@ -130,7 +133,7 @@ namespace graupel
 
     // What deal.II gave up in the present migration, and where each particle was
     // before, to name one that is lost.
-    std::vector<Traveller> strays;
+    std::vector<Traveller>                                 strays;
     std::vector<std::pair<unsigned int, dealii::Point<3>>> last_places;
   };
 } // namespace graupel

@@ -45,13 +45,15 @@ namespace graupel
     bool step();
 
     /** Time since the beginning of the phase [s]. */
-    double time() const
+    double
+    time() const
     {
       return elapsed;
     }
 
     /** Taps so far. */
-    unsigned int n_taps() const
+    unsigned int
+    n_taps() const
     {
       return taps;
     }
@@ -74,15 +76,15 @@ namespace graupel
     void finish_if_too_late() const;
 
     const SettlingParameters input;
-    Dem &dem;
-    const BedObservables observables;
+    Dem                     &dem;
+    const BedObservables     observables;
 
-    Phase phase       = Phase::packing;
-    double elapsed    = 0.;
-    unsigned int taps = 0;
-    double tap_time   = 0.;
-    double amplitude;
-    double void_fraction = 1.;
+    Phase        phase    = Phase::packing;
+    double       elapsed  = 0.;
+    unsigned int taps     = 0;
+    double       tap_time = 0.;
+    double       amplitude;
+    double       void_fraction = 1.;
   };
 } // namespace graupel
 

@@ -48,9 +48,9 @@ namespace graupel
     void unpack(const unsigned int row, const double *numbers);
 
   private:
-    std::vector<unsigned char> used;
+    std::vector<unsigned char>                     used;
     std::vector<std::array<std::int64_t, n_slots>> partners;
-    std::vector<std::array<Springs, n_slots>> springs;
+    std::vector<std::array<Springs, n_slots>>      springs;
   };
 } // namespace graupel
 

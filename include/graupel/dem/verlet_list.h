@@ -43,7 +43,7 @@ namespace graupel
 
     // Bins over the bounding box of all rows: the rows of bin b, in ascending
     // order, are rows[begin[b]] .. rows[begin[b + 1] - 1].
-    std::array<int, 3> n_bins;
+    std::array<int, 3>        n_bins;
     std::vector<unsigned int> bin_of_row;
     std::vector<unsigned int> begin;
     std::vector<unsigned int> rows;

@@ -33,9 +33,10 @@ namespace graupel
     /** Unit normal, out of the vessel. */
     dealii::Tensor<1, 3> normal;
 
-    WallGeometry at(const dealii::Point<3> &x) const
+    WallGeometry
+    at(const dealii::Point<3> &x) const
     {
-      return { (point - x) * normal, normal };
+      return {(point - x) * normal, normal};
     }
   };
 
@@ -45,13 +46,14 @@ namespace graupel
     /** Inner radius [m]. */
     double radius;
 
-    WallGeometry at(const dealii::Point<3> &x) const
+    WallGeometry
+    at(const dealii::Point<3> &x) const
     {
       const double rho = std::sqrt(x[0] * x[0] + x[1] * x[1]);
       // On the axis every direction is as good; one must be taken.
       if (!(rho > 0.))
-        return { radius, dealii::Tensor<1, 3>({ 1., 0., 0. }) };
-      return { radius - rho, dealii::Tensor<1, 3>({ x[0] / rho, x[1] / rho, 0. }) };
+        return {radius, dealii::Tensor<1, 3>({1., 0., 0.})};
+      return {radius - rho, dealii::Tensor<1, 3>({x[0] / rho, x[1] / rho, 0.})};
     }
   };
 
@@ -59,11 +61,12 @@ namespace graupel
   struct Wall
   {
     /** "wall", "bottom", "top", as in the output. */
-    std::string name;
+    std::string                       name;
     std::variant<PlaneWall, TubeWall> shape;
 
     /** Slow, for tests and checks; the contact loop dispatches once a wall. */
-    WallGeometry at(const dealii::Point<3> &x) const
+    WallGeometry
+    at(const dealii::Point<3> &x) const
     {
       return std::visit([&](const auto &surface) { return surface.at(x); }, shape);
     }
@@ -84,7 +87,8 @@ namespace graupel
    * The partner id that stands for wall number @p wall in the table of springs;
    * negative, so that it never is a particle's.
    */
-  constexpr std::int64_t wall_id(const unsigned int wall)
+  constexpr std::int64_t
+  wall_id(const unsigned int wall)
   {
     return -1 - static_cast<std::int64_t>(wall);
   }

@@ -42,26 +42,26 @@ namespace graupel
   struct CellState
   {
     /** Cube root of the cell's volume [m]. */
-    double                                               size;
-    std::array<double, nodes_per_cell>                   void_fraction;
+    double                             size;
+    std::array<double, nodes_per_cell> void_fraction;
     /** B / alpha, the resistance to the flux [kg/m^3/s]. */
-    std::array<double, nodes_per_cell>                   resistance;
+    std::array<double, nodes_per_cell> resistance;
     /** d(alpha)/dt [1/s]. */
-    std::array<double, nodes_per_cell>                   void_fraction_rate;
+    std::array<double, nodes_per_cell> void_fraction_rate;
     /** The flux that carries momentum, of the last step [m/s]. */
-    std::array<dealii::Tensor<1, 3>, nodes_per_cell>     flux;
+    std::array<dealii::Tensor<1, 3>, nodes_per_cell> flux;
     /** The known part of dq/dt [m/s^2]. */
-    std::array<dealii::Tensor<1, 3>, nodes_per_cell>     history;
+    std::array<dealii::Tensor<1, 3>, nodes_per_cell> history;
     /** C [N/m^3]. */
-    std::array<dealii::Tensor<1, 3>, nodes_per_cell>     drag_source;
+    std::array<dealii::Tensor<1, 3>, nodes_per_cell> drag_source;
   };
 
   /** Basis functions at one quadrature point. */
   struct ShapePoint
   {
     /** Weight, with the Jacobian [m^3]. */
-    double                                           weight;
-    std::array<double, nodes_per_cell>               value;
+    double                             weight;
+    std::array<double, nodes_per_cell> value;
     /** [1/m] */
     std::array<dealii::Tensor<1, 3>, nodes_per_cell> gradient;
   };

@@ -46,7 +46,8 @@ namespace graupel
       double mass_imbalance = 0.;
     };
 
-    /** @p density [kg/m^3], @p viscosity [Pa s]; @p nodes and @p costs must outlive this object. */
+    /** @p density [kg/m^3], @p viscosity [Pa s]; @p nodes and @p costs must outlive this
+     * object. */
     FlowSolver(const FlowParameters &parameters,
                const double          density,
                const double          viscosity,
@@ -118,8 +119,8 @@ namespace graupel
     dealii::TrilinosWrappers::BlockSparseMatrix matrix;
     dealii::TrilinosWrappers::SparseMatrix      schur;
     BlockPreconditioner                         preconditioner;
-    unsigned int                                fresh_iterations = 0;
-    unsigned int                                last_iterations  = 0;
+    unsigned int                                fresh_iterations    = 0;
+    unsigned int                                last_iterations     = 0;
     double                                      preconditioned_rate = 0.;
     BlockVector                                 solution;
     BlockVector                                 rhs;

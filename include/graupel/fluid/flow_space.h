@@ -47,13 +47,14 @@ namespace graupel
       return cell_nodes.size();
     }
 
-    const NodalSpace             &nodes;
-    const dealii::FESystem<3>     fe;
-    dealii::DoFHandler<3>         dof_handler;
+    const NodalSpace         &nodes;
+    const dealii::FESystem<3> fe;
+    dealii::DoFHandler<3>     dof_handler;
     /** Owned and relevant unknowns, by block. */
     std::vector<dealii::IndexSet> owned, relevant;
 
-    /** By owned cell: its unknowns, its nodes as local indices of a NodalVector, its size [m]. */
+    /** By owned cell: its unknowns, its nodes as local indices of a NodalVector, its size
+     * [m]. */
     std::vector<std::vector<dealii::types::global_dof_index>> cell_unknowns;
     std::vector<LocalNodes>                                   cell_nodes;
     std::vector<double>                                       cell_sizes;

@@ -53,7 +53,9 @@ namespace graupel
       top    = 2
     };
 
-    CylinderMesh(const Cylinder &cylinder, const MeshParameters &parameters, MPI_Comm communicator);
+    CylinderMesh(const Cylinder       &cylinder,
+                 const MeshParameters &parameters,
+                 MPI_Comm              communicator);
 
     const dealii::parallel::distributed::Triangulation<3> &
     triangulation() const
@@ -83,9 +85,9 @@ namespace graupel
     double smallest_edge() const;
 
   private:
-    Cylinder                                         vessel;
+    Cylinder                                        vessel;
     dealii::parallel::distributed::Triangulation<3> forest;
-    dealii::MappingQ<3>                              quadratic;
+    dealii::MappingQ<3>                             quadratic;
   };
 } // namespace graupel
 

@@ -24,14 +24,15 @@ namespace graupel
     /** @p mesh must outlive this object. */
     explicit NodalSpace(const CylinderMesh &mesh);
 
-    const CylinderMesh                       &mesh;
-    const dealii::FE_Q<3>                     fe;
-    /** The rule that all integrals over cells share, so that sums of them agree to round-off. */
-    const dealii::Quadrature<3>               quadrature;
-    dealii::DoFHandler<3>                     dof_handler;
-    dealii::AffineConstraints<double>         hanging_nodes;
-    dealii::IndexSet                          owned;
-    dealii::IndexSet                          relevant;
+    const CylinderMesh   &mesh;
+    const dealii::FE_Q<3> fe;
+    /** The rule that all integrals over cells share, so that sums of them agree to
+     * round-off. */
+    const dealii::Quadrature<3>       quadrature;
+    dealii::DoFHandler<3>             dof_handler;
+    dealii::AffineConstraints<double> hanging_nodes;
+    dealii::IndexSet                  owned;
+    dealii::IndexSet                  relevant;
 
     /** Makes @p vector a zero vector of the nodes, with room for ghosts. */
     void initialize(NodalVector &vector) const;

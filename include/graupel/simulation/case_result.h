@@ -14,10 +14,10 @@ namespace graupel
   struct MonitorRow
   {
     /** Simulated time since the run began [s]. */
-    double       time = 0.;
-    std::string  phase;
+    double      time = 0.;
+    std::string phase;
     /** Number of the flow case from 1; 0 before. */
-    unsigned int flow_case = 0;
+    unsigned int flow_case            = 0;
     double       superficial_velocity = 0.; // [m/s]
     double       pressure_drop        = 0.; // [Pa]
     double       bed_height           = 0.; // [m]
@@ -35,39 +35,40 @@ namespace graupel
   /** A flow case: means over the last quarter of its time, unless said otherwise. */
   struct CaseResult
   {
-    double superficial_velocity            = 0.; // [m/s]
-    double pressure_drop                   = 0.; // [Pa]
-    double ergun_pressure_drop             = 0.; // [Pa]
-    double deviation_from_ergun            = 0.; // [-]
-    double gradient_deviation_from_ergun   = 0.; // over the middle half, at the end [-]
-    double wall_channelling_deviation      = 0.; // expected from the radial profile [-]
-    double bed_height                      = 0.; // at the end [m]
-    double bed_rise                        = 0.; // since settling [m]
-    double mean_void_fraction              = 0.; // at the end [-]
-    double bottom_force                    = 0.; // [N]
-    double wall_force                      = 0.; // [N]
-    double fluid_force                     = 0.; // [N]
-    double weight                          = 0.; // [N]
-    bool   fluidized                       = false;
-    bool   steady                          = false;
-    double simulated_time                  = 0.; // [s]
-    double wall_seconds                    = 0.; // [s]
-    double cpu_seconds                     = 0.; // of all ranks [s]
+    double superficial_velocity          = 0.; // [m/s]
+    double pressure_drop                 = 0.; // [Pa]
+    double ergun_pressure_drop           = 0.; // [Pa]
+    double deviation_from_ergun          = 0.; // [-]
+    double gradient_deviation_from_ergun = 0.; // over the middle half, at the end [-]
+    double wall_channelling_deviation    = 0.; // expected from the radial profile [-]
+    double axial_profile_deviation       = 0.; // expected from the axial profile [-]
+    double bed_height                    = 0.; // at the end [m]
+    double bed_rise                      = 0.; // since settling [m]
+    double mean_void_fraction            = 0.; // at the end [-]
+    double bottom_force                  = 0.; // [N]
+    double wall_force                    = 0.; // [N]
+    double fluid_force                   = 0.; // [N]
+    double weight                        = 0.; // [N]
+    bool   fluidized                     = false;
+    bool   steady                        = false;
+    double simulated_time                = 0.; // [s]
+    double wall_seconds                  = 0.; // [s]
+    double cpu_seconds                   = 0.; // of all ranks [s]
   };
 
   /** The bed before the flow. */
   struct BedResult
   {
-    unsigned int particle_count            = 0;
-    double       particle_diameter         = 0.; // simulated [m]
-    double       original_diameter         = 0.; // [m]
-    double       scale                     = 1.; // [-]
-    double       solid_volume              = 0.; // [m^3]
-    double       height                    = 0.; // [m]
-    double       mean_void_fraction        = 1.; // [-]
-    double       mean_coordination_number  = 0.; // [-]
-    double       vessel_diameter           = 0.; // [m]
-    double       vessel_height             = 0.; // [m]
+    unsigned int particle_count           = 0;
+    double       particle_diameter        = 0.; // simulated [m]
+    double       original_diameter        = 0.; // [m]
+    double       scale                    = 1.; // [-]
+    double       solid_volume             = 0.; // [m^3]
+    double       height                   = 0.; // [m]
+    double       mean_void_fraction       = 1.; // [-]
+    double       mean_coordination_number = 0.; // [-]
+    double       vessel_diameter          = 0.; // [m]
+    double       vessel_height            = 0.; // [m]
   };
 
   /**
@@ -90,7 +91,8 @@ namespace graupel
     std::deque<MonitorRow> rows;
   };
 
-  /** Mean of the rows from the time @p from [s] on, of the columns that CaseResult averages. */
+  /** Mean of the rows from the time @p from [s] on, of the columns that CaseResult
+   * averages. */
   MonitorRow mean_since(const std::vector<MonitorRow> &rows, const double from);
 } // namespace graupel
 

@@ -18,11 +18,12 @@ namespace graupel
 
   private:
     const std::vector<dealii::DataOutBase::Patch<0, 3>> &get_patches() const override;
-    std::vector<std::string>                             get_dataset_names() const override;
-    std::vector<std::tuple<unsigned int,
-                           unsigned int,
-                           std::string,
-                           dealii::DataComponentInterpretation::DataComponentInterpretation>>
+    std::vector<std::string> get_dataset_names() const override;
+    std::vector<
+      std::tuple<unsigned int,
+                 unsigned int,
+                 std::string,
+                 dealii::DataComponentInterpretation::DataComponentInterpretation>>
     get_nonscalar_data_ranges() const override;
 
     std::vector<dealii::DataOutBase::Patch<0, 3>> patches;

@@ -9,7 +9,7 @@ namespace graupel
   /** The fields that the profiles look at, ghosts up to date. */
   struct FlowFields
   {
-    const NodalSpace  &nodes;
+    const NodalSpace &nodes;
     /** alpha [-]. */
     const NodalVector &void_fraction;
     /** z-component of q, the local superficial velocity [m/s]. */
@@ -26,14 +26,16 @@ namespace graupel
     /** Mean height z [m]. */
     double height = 0.;
     /** Mean distance from the axis [m]. */
-    double radius = 0.;
+    double radius        = 0.;
     double void_fraction = 0.;
-    double flux = 0.;
-    double pressure = 0.;
+    double flux          = 0.;
+    double pressure      = 0.;
   };
 
-  /** Means over @p n_slabs horizontal slabs of equal thickness, from the bottom up. Collective. */
-  std::vector<RegionMean> axial_profile(const FlowFields &fields, const unsigned int n_slabs);
+  /** Means over @p n_slabs horizontal slabs of equal thickness, from the bottom up.
+   * Collective. */
+  std::vector<RegionMean> axial_profile(const FlowFields  &fields,
+                                        const unsigned int n_slabs);
 
   /**
    * Means over @p n_annuli annuli of equal width, from the axis to the wall,
@@ -45,7 +47,8 @@ namespace graupel
                                          const double       from,
                                          const double       to);
 
-  /** Pressure at the height @p z [m], linear between the slabs of an axial profile [Pa]. */
+  /** Pressure at the height @p z [m], linear between the slabs of an axial profile [Pa].
+   */
   double pressure_at(const std::vector<RegionMean> &axial, const double z);
 
   /** A point of the plane y = 0 and the fields there. */
@@ -54,8 +57,10 @@ namespace graupel
     double x, z, void_fraction, flux, pressure;
   };
 
-  /** The plane y = 0 on a regular grid of @p n_across points across, z running fastest. Collective. */
-  std::vector<PlanePoint> mid_plane(const FlowFields &fields, const unsigned int n_across);
+  /** The plane y = 0 on a regular grid of @p n_across points across, z running fastest.
+   * Collective. */
+  std::vector<PlanePoint> mid_plane(const FlowFields  &fields,
+                                    const unsigned int n_across);
 
   /**
    * What loose packing at the wall does by itself: the common pressure gradient
@@ -67,6 +72,18 @@ namespace graupel
                                     const double                   diameter,
                                     const double                   superficial_velocity,
                                     const double                   mean_void_fraction);
+
+  /**
+   * What the bed's ends and layers do by themselves: Ergun's equation summed over
+   * the void fraction along the axis, in which the filter has smeared the surface
+   * of the bed, over @p ergun_pressure_drop [Pa], minus 1 [-].
+   */
+  double axial_profile_deviation(const std::vector<RegionMean> &axial,
+                                 const FluidProperties         &fluid,
+                                 const double                   diameter,
+                                 const double                   superficial_velocity,
+                                 const double                   ergun_pressure_drop,
+                                 const double                   cross_section);
 } // namespace graupel
 
 #endif

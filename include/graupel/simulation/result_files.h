@@ -42,9 +42,9 @@ namespace graupel
     void write_cases(const std::vector<CaseResult> &cases);
 
     /** profiles-NN.csv of the flow case @p number, from 1 on, beside Ergun's pressure. */
-    void write_axial(const unsigned int              number,
-                     const std::vector<RegionMean>  &profile,
-                     const CaseResult               &result);
+    void write_axial(const unsigned int             number,
+                     const std::vector<RegionMean> &profile,
+                     const CaseResult              &result);
 
     /** radial-NN.csv; @p radius of the vessel [m]. */
     void write_radial(const unsigned int             number,
@@ -52,7 +52,8 @@ namespace graupel
                       const double                   radius);
 
     /** midplane-NN.csv. */
-    void write_mid_plane(const unsigned int number, const std::vector<PlanePoint> &points);
+    void write_mid_plane(const unsigned int             number,
+                         const std::vector<PlanePoint> &points);
 
     /** Adds the fields at @p time [s] to solution.pvd. Collective. */
     void add_fields(const double      time,

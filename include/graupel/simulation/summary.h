@@ -26,7 +26,9 @@ namespace graupel
    * seconds of each activity the largest of any rank. The file appears whole or
    * not at all. Collective.
    */
-  void write_summary(const std::string &path, const Summary &summary, MPI_Comm communicator);
+  void write_summary(const std::string &path,
+                     const Summary     &summary,
+                     MPI_Comm           communicator);
 } // namespace graupel
 
 #endif

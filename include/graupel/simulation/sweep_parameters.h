@@ -39,7 +39,8 @@ namespace graupel
   {
     /** Directory of the results; made if it does not exist. */
     std::string directory = "output";
-    /** Time between two sets of ParaView files beside those at the ends of phases and cases; 0: none [s]. */
+    /** Time between two sets of ParaView files beside those at the ends of phases and
+     * cases; 0: none [s]. */
     double interval = 0.;
     /** Points across the vessel of the mid-plane file [-]. */
     unsigned int midplane_points = 51;

@@ -1,0 +1,145 @@
+#include <graupel/simulation/case_result.h>
+#include <graupel/simulation/profiles.h>
+
+#include <gtest/gtest.h>
+
+using namespace graupel;
+
+namespace
+{
+  MonitorRow
+  row_at(const double time, const double pressure_drop)
+  {
+    MonitorRow row;
+    row.time          = time;
+    row.pressure_drop = pressure_drop;
+    row.bed_height    = 0.15;
+    row.bottom_force  = 1.;
+    return row;
+  }
+} // namespace
+
+TEST(SteadyMonitor, WaitsForAWholeWindow)
+{
+  SteadyMonitor monitor(0.1, 1e-3, 1.);
+  for (int n = 0; n < 10; ++n)
+    {
+      monitor.record(row_at(0.01 * n, 100.));
+      EXPECT_FALSE(monitor.is_steady()) << "after " << n + 1 << " rows";
+    }
+  monitor.record(row_at(0.1, 100.));
+  EXPECT_TRUE(monitor.is_steady());
+}
+
+TEST(SteadyMonitor, SeesAChangeAnywhereInTheWindow)
+{
+  SteadyMonitor monitor(0.1, 1e-3, 1.);
+  for (int n = 0; n <= 60; ++n)
+    {
+      // A step of 1 % at t = 0.3 s: not steady until the window has passed it.
+      monitor.record(row_at(0.01 * n, n < 30 ? 100. : 101.));
+      if (n >= 30 && n < 39)
+        {
+          EXPECT_FALSE(monitor.is_steady()) << n;
+        }
+      else if (n > 40)
+        {
+          EXPECT_TRUE(monitor.is_steady()) << n;
+        }
+    }
+}
+
+TEST(MeanSince, AveragesTheLastRowsOnly)
+{
+  std::vector<MonitorRow> rows;
+  for (int n = 1; n <= 4; ++n)
+    rows.push_back(row_at(n, 10. * n));
+  EXPECT_DOUBLE_EQ(mean_since(rows, 2.5).pressure_drop, 35.);
+  EXPECT_THROW(mean_since(rows, 5.), std::invalid_argument);
+}
+
+TEST(Profiles, AverageLinearFieldsExactly)
+{
+  // p = 5 - 100 z: every slab's mean pressure is that of its mean height, and
+  // the value between two slabs is linear.
+  const CylinderMesh mesh({0.025, 0.05}, {3.2e-3, 0.}, MPI_COMM_WORLD);
+  const NodalSpace   nodes(mesh);
+  NodalVector        pressure, alpha, flux;
+  for (NodalVector *vector : {&pressure, &alpha, &flux})
+    nodes.initialize(*vector);
+  const auto &partitioner = *nodes.measure().get_partitioner();
+  for (const auto &cell : nodes.dof_handler.active_cell_iterators())
+    if (cell->is_locally_owned())
+      for (const unsigned int v : cell->vertex_indices())
+        if (const auto node = cell->vertex_dof_index(v, 0);
+            partitioner.in_local_range(node))
+          pressure(node) = 5. - 100. * cell->vertex(v)[2];
+  alpha = 0.4;
+  flux  = 0.3;
+  for (NodalVector *vector : {&pressure, &alpha, &flux})
+    vector->update_ghost_values();
+  const FlowFields fields{nodes, alpha, flux, pressure};
+
+  const auto axial  = axial_profile(fields, 16);
+  double     volume = 0.;
+  for (const RegionMean &slab : axial)
+    {
+      EXPECT_NEAR(slab.pressure, 5. - 100. * slab.height, 1e-12);
+      EXPECT_NEAR(slab.void_fraction, 0.4, 1e-12);
+      EXPECT_NEAR(slab.flux, 0.3, 1e-12);
+      volume += slab.volume;
+    }
+  EXPECT_NEAR(volume, mesh.cylinder().cross_section() * 0.05, 1e-3 * volume);
+  EXPECT_NEAR(pressure_at(axial, 0.0217), 5. - 2.17, 1e-10);
+
+  double annuli = 0.;
+  for (const RegionMean &annulus : radial_profile(fields, 6, 0., 0.05))
+    annuli += annulus.volume;
+  EXPECT_NEAR(annuli, volume, 1e-12 * volume);
+
+  const auto plane = mid_plane(fields, 11);
+  for (const PlanePoint &point : plane)
+    EXPECT_NEAR(point.pressure, 5. - 100. * point.z, 1e-6);
+  const unsigned int n_points =
+    dealii::Utilities::MPI::sum<unsigned int>(plane.size(), MPI_COMM_WORLD);
+  EXPECT_EQ(n_points % 11, 0u);
+  EXPECT_GE(n_points, 11u * 20u);
+}
+
+TEST(AxialProfile, ExplainsASmearedSurface)
+{
+  // Slabs of an even bed up to its height give Ergun's drop; moving solids from
+  // the top slab into the clear slab above lowers it.
+  const FluidProperties   fluid;
+  const double            area = 1e-3, alpha = 0.4, velocity = 0.4;
+  std::vector<RegionMean> slabs(4);
+  for (RegionMean &slab : slabs)
+    {
+      slab.volume        = 0.01 * area;
+      slab.void_fraction = alpha;
+    }
+  slabs[3].void_fraction = 1.;
+  const double ergun     = ergun_pressure_drop(fluid, 1.6e-3, alpha, velocity, 0.03);
+  EXPECT_NEAR(
+    axial_profile_deviation(slabs, fluid, 1.6e-3, velocity, ergun, area), 0., 1e-12);
+  slabs[2].void_fraction = 0.5;
+  slabs[3].void_fraction = 0.9;
+  EXPECT_LT(axial_profile_deviation(slabs, fluid, 1.6e-3, velocity, ergun, area), -0.1);
+}
+
+TEST(WallChannelling, IsNothingInAnEvenBedAndLessDropInAnUnevenOne)
+{
+  const FluidProperties fluid;
+  RegionMean            annulus;
+  annulus.volume        = 1.;
+  annulus.void_fraction = 0.4;
+  EXPECT_NEAR(
+    wall_channelling_deviation({annulus, annulus}, fluid, 1.6e-3, 0.4, 0.4), 0., 1e-12);
+  RegionMean loose = annulus, dense = annulus;
+  loose.void_fraction = 0.45;
+  dense.void_fraction = 0.35;
+  const double deviation =
+    wall_channelling_deviation({loose, dense}, fluid, 1.6e-3, 0.4, 0.4);
+  EXPECT_LT(deviation, -0.01);
+  EXPECT_GT(deviation, -0.2);
+}

@@ -1,0 +1,131 @@
+#include <graupel/base/parameter_entries.h>
+#include <graupel/base/parameters.h>
+#include <graupel/simulation/run_parameters.h>
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+using namespace graupel;
+
+namespace
+{
+  // The explanation that a user gets for the example with one value changed, or
+  // "accepted".
+  std::string
+  verdict_on(const std::string &assignment)
+  {
+    RunParameters            parameters;
+    dealii::ParameterHandler prm;
+    parameters.declare(prm);
+    ParameterFile file(prm);
+    try
+      {
+        file.read(GRAUPEL_SOURCE_DIR "/prm/packed-bed/ricklick-2x.prm");
+        file.set(assignment);
+        parameters.check();
+      }
+    catch (const InputError &error)
+      {
+        return file.explain(error);
+      }
+    return "accepted";
+  }
+} // namespace
+
+TEST(Parameters, EveryNumberHasAUnit)
+{
+  RunParameters            parameters;
+  dealii::ParameterHandler prm;
+  parameters.declare(prm);
+  const auto unitless = entries_without_unit(prm);
+  EXPECT_TRUE(unitless.empty()) << unitless.front();
+}
+
+TEST(Parameters, EveryExampleIsAccepted)
+{
+  unsigned int n_examples = 0;
+  for (const auto &entry :
+       std::filesystem::recursive_directory_iterator(GRAUPEL_SOURCE_DIR "/prm"))
+    if (entry.path().extension() == ".prm")
+      {
+        RunParameters            parameters;
+        dealii::ParameterHandler prm;
+        parameters.declare(prm);
+        ParameterFile file(prm);
+        EXPECT_NO_THROW({
+          file.read(entry.path().string());
+          parameters.check();
+        }) << entry.path();
+        EXPECT_GT(parameters.describe().size(), 100u);
+        ++n_examples;
+      }
+  EXPECT_GE(n_examples, 2u);
+}
+
+TEST(Parameters, DefaultsAreAccepted)
+{
+  EXPECT_NO_THROW(RunParameters().check());
+}
+
+// Each of these cannot be; the message must name the parameter and the value.
+class Impossible : public testing::TestWithParam<std::string>
+{
+};
+
+TEST_P(Impossible, ValueIsRefusedByName)
+{
+  const std::string assignment = GetParam();
+  const auto        equals     = assignment.find('=');
+  const std::string answer     = verdict_on(assignment);
+  EXPECT_NE(answer, "accepted") << assignment;
+  EXPECT_NE(answer.find(assignment.substr(0, equals)), std::string::npos) << answer;
+  EXPECT_NE(answer.find(assignment.substr(equals + 1)), std::string::npos) << answer;
+}
+
+INSTANTIATE_TEST_SUITE_P(Values,
+                         Impossible,
+                         testing::Values("Geometry/diameter=-0.025",
+                                         "Geometry/diameter=0.003",
+                                         "Geometry/height=0",
+                                         "Geometry/height=nan",
+                                         "Particles/diameter=0",
+                                         "Particles/scale=0.5",
+                                         "Particles/scale=20",
+                                         "Particles/density=-1",
+                                         "Contact/substep=1e-3",
+                                         "Contact/particle friction=-0.1",
+                                         "Contact/particle restitution=1.5",
+                                         "Filling/count=100000000",
+                                         "Mesh/cell size=0",
+                                         "Mesh/cell height=-1",
+                                         "Fluid/viscosity=0",
+                                         "Coupling/filter length=-1e-3",
+                                         "Coupling/filter length=short",
+                                         "Coupling/filter length=1",
+                                         "Coupling/drag law=erggun",
+                                         "Coupling/scaling=exakt",
+                                         "Flow/time step=0",
+                                         "Flow/superficial velocities=0.3, -0.4",
+                                         "Flow/flow-throughs=0",
+                                         "Flow solver/linear tolerance=0",
+                                         "Output/annuli=1"));
+
+TEST(Parameters, UnknownNamesProposeTheNearest)
+{
+  const std::string answer = verdict_on("Geometri/diameter=0.1");
+  EXPECT_NE(answer.find("Geometry/diameter"), std::string::npos) << answer;
+}
+
+TEST(Parameters, ExpressionsAreCheckedBeforeTheRun)
+{
+  RunParameters parameters;
+  parameters.drag.scaling = "expression";
+  for (const std::string formula : {"s*(Cd", "-Cd", "sqrt(-1)*Cd", "Cd + nothing"})
+    {
+      parameters.drag.expression = formula;
+      EXPECT_THROW(parameters.check(), InputError) << formula;
+    }
+  parameters.drag.expression = "s*s*Cd";
+  EXPECT_NO_THROW(parameters.check());
+}
