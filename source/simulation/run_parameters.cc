@@ -33,8 +33,8 @@ namespace graupel
   RunParameters::check() const
   {
     cylinder.check();
-    mesh.check(cylinder);
     dem.check(cylinder);
+    mesh.check(cylinder);
     filling.check(cylinder, dem.particles);
     settling.check();
     fluid.check();

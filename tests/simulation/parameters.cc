@@ -86,12 +86,12 @@ TEST_P(Impossible, ValueIsRefusedByName)
 INSTANTIATE_TEST_SUITE_P(Values,
                          Impossible,
                          testing::Values("Geometry/diameter=-0.025",
-                                         "Geometry/diameter=0.003",
+
                                          "Geometry/height=0",
                                          "Geometry/height=nan",
                                          "Particles/diameter=0",
                                          "Particles/scale=0.5",
-                                         "Particles/scale=20",
+
                                          "Particles/density=-1",
                                          "Contact/substep=1e-3",
                                          "Contact/particle friction=-0.1",
@@ -110,6 +110,15 @@ INSTANTIATE_TEST_SUITE_P(Values,
                                          "Flow/flow-throughs=0",
                                          "Flow solver/linear tolerance=0",
                                          "Output/annuli=1"));
+
+TEST(Parameters, ParticlesMustFitIntoTheVessel)
+{
+  for (const std::string assignment : {"Geometry/diameter=0.003", "Particles/scale=20"})
+    {
+      const std::string answer = verdict_on(assignment);
+      EXPECT_NE(answer.find("no bed fits"), std::string::npos) << answer;
+    }
+}
 
 TEST(Parameters, UnknownNamesProposeTheNearest)
 {
