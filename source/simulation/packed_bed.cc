@@ -190,7 +190,7 @@ namespace graupel
     return result;
   }
 
-  unsigned int
+  void
   PackedBed::step_fluid(const double step)
   {
     dem.synchronise();
@@ -203,7 +203,6 @@ namespace graupel
     summary.ledger.record(last_report.mass_imbalance,
                           exchange.momentum_imbalance(),
                           exchange.solid_volume_error());
-    return last_report.iterations;
   }
 
   MonitorRow

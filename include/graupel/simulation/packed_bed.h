@@ -34,12 +34,12 @@ namespace graupel
     void settle();
     void flow();
 
-    CaseResult   run_case(const double superficial_velocity);
-    unsigned int step_fluid(const double step);
-    MonitorRow   monitor(const std::string &phase) const;
-    void         write_fields_if_due();
-    void         evaluate(CaseResult &result, const unsigned int number);
-    void         write_summary_file();
+    CaseResult run_case(const double superficial_velocity);
+    void       step_fluid(const double step);
+    MonitorRow monitor(const std::string &phase) const;
+    void       write_fields_if_due();
+    void       evaluate(CaseResult &result, const unsigned int number);
+    void       write_summary_file();
 
     const RunParameters parameters;
     ResultFiles        &files;
