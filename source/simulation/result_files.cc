@@ -3,6 +3,8 @@
 #include <graupel/simulation/result_files.h>
 
 #include <deal.II/base/data_out_base.h>
+#include <deal.II/dofs/dof_tools.h>
+#include <deal.II/fe/fe_system.h>
 #include <deal.II/numerics/data_out.h>
 
 #include <filesystem>
@@ -19,6 +21,11 @@ namespace graupel
                                "monitors\\.csv|(profiles|radial|midplane)-[0-9]+\\.csv|"
                                "(solution|particles)\\.pvd|report\\.html)");
 
+    // All ranks write into one file: a rank without particles would otherwise leave
+    // a file without points, which ParaView complains about.
+    constexpr unsigned int one_file       = 1;
+    constexpr unsigned int counter_digits = 4;
+
     void
     prepare_directory(const std::string &directory)
     {
@@ -33,6 +40,34 @@ namespace graupel
       std::ofstream trial(fs::path(directory) / "log.txt");
       if (!trial)
         throw std::runtime_error("no file can be made there");
+    }
+
+    // Three nodal vectors as one vector of the unknowns of @p vector_nodes.
+    NodalVector
+    as_vector(const NodalSpace            &nodes,
+              const NodalVectorField      &field,
+              const dealii::DoFHandler<3> &vector_nodes)
+    {
+      dealii::IndexSet relevant;
+      dealii::DoFTools::extract_locally_relevant_dofs(vector_nodes, relevant);
+      NodalVector result(
+        vector_nodes.locally_owned_dofs(), relevant, nodes.mesh.communicator());
+      for (const auto &cell : vector_nodes.active_cell_iterators())
+        if (cell->is_locally_owned())
+          {
+            const dealii::DoFHandler<3>::active_cell_iterator scalar_cell(
+              &vector_nodes.get_triangulation(),
+              cell->level(),
+              cell->index(),
+              &nodes.dof_handler);
+            for (const unsigned int v : cell->vertex_indices())
+              for (unsigned int i = 0; i < 3; ++i)
+                if (const auto unknown = cell->vertex_dof_index(v, i);
+                    vector_nodes.locally_owned_dofs().is_element(unknown))
+                  result(unknown) = field[i](scalar_cell->vertex_dof_index(v, 0));
+          }
+      result.update_ghost_values();
+      return result;
     }
 
     std::string
@@ -193,13 +228,27 @@ namespace graupel
     output.add_data_vector(medium.void_fraction, "void_fraction");
     output.add_data_vector(medium.drag, "drag_coefficient");
     output.add_data_vector(flow.pressure(), "pressure");
-    for (unsigned int i = 0; i < 3; ++i)
-      output.add_data_vector(flow.flux()[i], std::string("flux_") + "xyz"[i]);
+
+    // The flux as a vector needs unknowns of its own.
+    const dealii::FESystem<3> fe(nodes.fe, 3);
+    dealii::DoFHandler<3>     vector_nodes(nodes.dof_handler.get_triangulation());
+    vector_nodes.distribute_dofs(fe);
+    const NodalVector flux = as_vector(nodes, flow.flux(), vector_nodes);
+    output.add_data_vector(
+      vector_nodes,
+      flux,
+      std::vector<std::string>(3, "flux"),
+      std::vector<dealii::DataComponentInterpretation::DataComponentInterpretation>(
+        3, dealii::DataComponentInterpretation::component_is_part_of_vector));
     output.build_patches(nodes.mesh.mapping());
-    field_records.emplace_back(
-      time,
-      "vtu/" + output.write_vtu_with_pvtu_record(
-                 directory + "/vtu/", "solution", field_records.size(), communicator, 4));
+    field_records.emplace_back(time,
+                               "vtu/" +
+                                 output.write_vtu_with_pvtu_record(directory + "/vtu/",
+                                                                   "solution",
+                                                                   field_records.size(),
+                                                                   communicator,
+                                                                   counter_digits,
+                                                                   one_file));
     write_records("solution.pvd", field_records);
   }
 
@@ -209,8 +258,12 @@ namespace graupel
     particle_records.emplace_back(
       time,
       "vtu/" +
-        ParticleOutput(particles).write_vtu_with_pvtu_record(
-          directory + "/vtu/", "particles", particle_records.size(), communicator, 4));
+        ParticleOutput(particles).write_vtu_with_pvtu_record(directory + "/vtu/",
+                                                             "particles",
+                                                             particle_records.size(),
+                                                             communicator,
+                                                             counter_digits,
+                                                             one_file));
     write_records("particles.pvd", particle_records);
   }
 
