@@ -1,9 +1,7 @@
 #include <graupel/coupling/filter.h>
 
 #include <deal.II/base/quadrature_lib.h>
-#include <deal.II/dofs/dof_tools.h>
 #include <deal.II/fe/fe_values.h>
-#include <deal.II/lac/trilinos_sparsity_pattern.h>
 
 #include <boost/math/special_functions/bessel.hpp>
 
@@ -36,12 +34,7 @@ namespace graupel
   void
   Filter::assemble()
   {
-    dealii::TrilinosWrappers::SparsityPattern pattern(
-      nodes.owned, nodes.owned, nodes.relevant, nodes.mesh.communicator());
-    dealii::DoFTools::make_sparsity_pattern(
-      nodes.dof_handler, pattern, nodes.hanging_nodes, false);
-    pattern.compress();
-    stiffness.reinit(pattern);
+    stiffness.reinit(nodes.coupling_pattern);
 
     // Quadrature in the corners, as for the nodes' volumes: it makes K the
     // seven-point Laplacian on a lattice. Gauss points would leave a checkerboard

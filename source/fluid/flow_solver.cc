@@ -99,7 +99,7 @@ namespace graupel
       space.dof_handler, pattern, constraints, false);
     pattern.compress();
     matrix.reinit(pattern);
-    schur.reinit(space.nodal_pattern);
+    schur.reinit(nodes.coupling_pattern);
     solution.reinit(BlockVector(space.owned, space.relevant, nodes.mesh.communicator()));
     rhs.reinit(solution);
   }

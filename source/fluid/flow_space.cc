@@ -118,15 +118,9 @@ namespace graupel
   void
   FlowSpace::assemble_gradient()
   {
-    nodal_pattern.reinit(
-      nodes.owned, nodes.owned, nodes.relevant, nodes.mesh.communicator());
-    dealii::DoFTools::make_sparsity_pattern(
-      nodes.dof_handler, nodal_pattern, nodes.hanging_nodes, false);
-    nodal_pattern.compress();
-
     for (unsigned int i = 0; i < 3; ++i)
       {
-        gradient[i].reinit(nodal_pattern);
+        gradient[i].reinit(nodes.coupling_pattern);
         std::vector<dealii::FullMatrix<double>> local(
           n_cells(), dealii::FullMatrix<double>(nodes_per_cell, nodes_per_cell));
         for (unsigned int cell = 0; cell < n_cells(); ++cell)

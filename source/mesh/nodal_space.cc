@@ -21,6 +21,11 @@ namespace graupel
     partitioner = std::make_shared<const dealii::Utilities::MPI::Partitioner>(
       owned, relevant, mesh.communicator());
 
+    coupling_pattern.reinit(owned, owned, relevant, mesh.communicator());
+    dealii::DoFTools::make_sparsity_pattern(
+      dof_handler, coupling_pattern, hanging_nodes, false);
+    coupling_pattern.compress();
+
     initialize(volumes);
     dealii::FEValues<3> values(
       mesh.mapping(), fe, quadrature, dealii::update_values | dealii::update_JxW_values);

@@ -6,7 +6,6 @@
 
 #include <deal.II/fe/fe_system.h>
 #include <deal.II/lac/trilinos_sparse_matrix.h>
-#include <deal.II/lac/trilinos_sparsity_pattern.h>
 
 namespace graupel
 {
@@ -69,9 +68,6 @@ namespace graupel
      * divergence of the continuity equation.
      */
     std::array<dealii::TrilinosWrappers::SparseMatrix, 3> gradient;
-
-    /** The pattern of a matrix that couples nodes which share a cell. */
-    dealii::TrilinosWrappers::SparsityPattern nodal_pattern;
 
   private:
     void number_unknowns();

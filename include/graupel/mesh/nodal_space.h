@@ -8,6 +8,7 @@
 #include <deal.II/fe/fe_q.h>
 #include <deal.II/lac/affine_constraints.h>
 #include <deal.II/lac/la_parallel_vector.h>
+#include <deal.II/lac/trilinos_sparsity_pattern.h>
 
 namespace graupel
 {
@@ -33,6 +34,8 @@ namespace graupel
     dealii::AffineConstraints<double> hanging_nodes;
     dealii::IndexSet                  owned;
     dealii::IndexSet                  relevant;
+    /** The entries of a matrix that couples nodes which share a cell. */
+    dealii::TrilinosWrappers::SparsityPattern coupling_pattern;
 
     /** Makes @p vector a zero vector of the nodes, with room for ghosts. */
     void initialize(NodalVector &vector) const;
