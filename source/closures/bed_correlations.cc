@@ -1,5 +1,6 @@
 #include <graupel/closures/bed_correlations.h>
 
+#include <boost/math/constants/constants.hpp>
 #include <boost/math/tools/toms748_solve.hpp>
 
 #include <limits>
@@ -114,5 +115,33 @@ namespace graupel
                                         boost::math::tools::eps_tolerance<double>(48),
                                         iterations);
     return (bracket.first + bracket.second) / 2.;
+  }
+
+  double
+  de_klerk_void_fraction(const double z, const double bulk)
+  {
+    if (z <= 0.637)
+      return (2.14 * z - 2.53) * z + 1.;
+    const double pi = boost::math::constants::pi<double>();
+    return bulk + 0.29 * std::exp(-0.6 * z) * std::cos(2.3 * pi * (z - 0.16)) +
+           0.15 * std::exp(-0.9 * z);
+  }
+
+  double
+  benyahia_oneill_void_fraction(const double diameter_ratio)
+  {
+    return 0.390 + 1.740 / ((diameter_ratio + 1.140) * (diameter_ratio + 1.140));
+  }
+
+  double
+  janssen_stress(const double specific_weight,
+                 const double diameter,
+                 const double wall_friction,
+                 const double depth)
+  {
+    const double rate = 4. * wall_friction / diameter;
+    // (1 - e^{-x}) / x, without losing digits where the wall carries little.
+    const double x = rate * depth;
+    return specific_weight * depth * (x == 0. ? 1. : -std::expm1(-x) / x);
   }
 } // namespace graupel

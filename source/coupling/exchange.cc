@@ -113,7 +113,7 @@ namespace graupel
   Exchange::deposit_void_fraction(const ParticleArrays &particles)
   {
     volume = by_row(particles.n_owned, [&](const unsigned int row) {
-      return sphere_volume(particles.radius[row]);
+      return sphere_volume(particles.body[row].radius);
     });
     transfer.deposit(scratch, volume);
     filter.spread(solid_fraction, scratch);
@@ -148,14 +148,14 @@ namespace graupel
       {
         dealii::Tensor<1, 3> slip;
         for (unsigned int i = 0; i < 3; ++i)
-          slip[i] = velocity[i][row] - particles.velocity[row][i];
+          slip[i] = velocity[i][row] - particles.body[row].velocity[i];
         try
           {
             beta[row] = drag.beta(alpha[row], slip.norm());
           }
         catch (const std::exception &error)
           {
-            fail_at(particles.position[row], error.what());
+            fail_at(particles.body[row].position, error.what());
           }
       }
     transfer.deposit(scratch, beta);
@@ -163,7 +163,7 @@ namespace graupel
     for (unsigned int i = 0; i < 3; ++i)
       {
         transfer.deposit(scratch, by_row(n, [&](const unsigned int row) {
-                           return beta[row] * particles.velocity[row][i];
+                           return beta[row] * particles.body[row].velocity[i];
                          }));
         filter.spread(result.drag_source[i], scratch);
       }
@@ -192,7 +192,7 @@ namespace graupel
         transfer.sample(gradient, smooth_gradient[i]);
         for (unsigned int row = 0; row < particles.n_owned; ++row)
           {
-            force[row][i] = beta[row] * (velocity[row] - particles.velocity[row][i]) -
+            force[row][i] = beta[row] * (velocity[row] - particles.body[row].velocity[i]) -
                             volume[row] * gradient[row];
             fluid_force[i] += force[row][i];
           }

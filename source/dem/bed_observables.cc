@@ -26,7 +26,7 @@ namespace graupel
   {
     double largest = 0.;
     for (unsigned int i = 0; i < particles.n_owned; ++i)
-      largest = std::max(largest, particles.radius[i]);
+      largest = std::max(largest, particles.body[i].radius);
     return dealii::Utilities::MPI::max(largest, communicator);
   }
 
@@ -37,7 +37,8 @@ namespace graupel
     std::vector<ExactSum> sums(planes.size(), zero);
     for (unsigned int i = 0; i < particles.n_owned; ++i)
       {
-        const double r = particles.radius[i], lowest = particles.position[i][2] - r;
+        const double r      = particles.body[i].radius,
+                     lowest = particles.body[i].position[2] - r;
         for (std::size_t k = 0; k < planes.size(); ++k)
           if (planes[k] > lowest)
             sums[k].add(sphere_volume_below(r, planes[k] - lowest));

@@ -43,6 +43,7 @@ namespace graupel
     , linear_damping_ratio(std::sqrt(stiffness_ratio))
     , friction(surface.friction)
     , rolling_resistance(surface.rolling_resistance)
+    , adhesion(surface.adhesion)
   {
   }
 

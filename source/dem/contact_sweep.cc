@@ -1,307 +1,573 @@
 #include <graupel/dem/contact_sweep.h>
 
+#include <deal.II/base/mpi.h>
+
+#include <numeric>
 #include <sstream>
 
 namespace graupel
 {
   namespace
   {
-    using Vector = dealii::Tensor<1, 3>;
+    using dealii::numbers::PI;
 
     // A contact beyond this many reference forces is a failure; 16 of them
     // still fit into the sum.
     constexpr double largest_relative_force = 500.;
 
-    // The list's own test may round differently from the contact's; what it
-    // lets through must be a superset.
-    constexpr double test_margin = 1. + 1e-12;
+    // Bodies of as many particles as there are lanes.
+    struct BodyLanes
+    {
+      Triple<Lanes> position;
+      Lanes         radius;
+      Triple<Lanes> velocity, spin, drift, spin_drift;
+    };
+
+    [[gnu::always_inline]] inline BodyLanes
+    load_bodies(const Body *bodies, const std::uint32_t *rows)
+    {
+      Lanes n[16];
+      load_records<16>(bodies, rows, 0, n);
+      return {{n[0], n[1], n[2]},
+              n[3],
+              {n[4], n[5], n[6]},
+              {n[7], n[8], n[9]},
+              {n[10], n[11], n[12]},
+              {n[13], n[14], n[15]}};
+    }
+
+    [[gnu::always_inline]] inline Springs<Lanes>
+    load_springs(const ContactList::Block &block)
+    {
+      const auto get = [&](const unsigned int c) {
+        return Lanes(block.springs[c], std::experimental::vector_aligned);
+      };
+      return {{get(0), get(1), get(2)}, {get(3), get(4), get(5)}};
+    }
+
+    [[gnu::always_inline]] inline void
+    store_springs(const Springs<Lanes> &s, ContactList::Block &block)
+    {
+      const auto put = [&](const unsigned int c, const Lanes &x) {
+        x.copy_to(block.springs[c], std::experimental::vector_aligned);
+      };
+      put(0, s.tangential.x);
+      put(1, s.tangential.y);
+      put(2, s.tangential.z);
+      put(3, s.rolling.x);
+      put(4, s.rolling.y);
+      put(5, s.rolling.z);
+    }
 
     // A contact that began within the substep has moved only since then.
-    double
-    step_in_contact(const Contact &contact, const double dt)
+    template <class Real>
+    Real
+    step_in_contact(const Contact<Real> &contact, const double dt)
     {
-      const double approached = contact.drift * contact.normal * dt;
-      return approached > contact.overlap ? dt * contact.overlap / approached : dt;
+      const Real approached = contact.drift * contact.normal * dt;
+      return select(
+        approached > contact.overlap, dt * contact.overlap / approached, Real(dt));
+    }
+
+    WholeLanes
+    whole(const LaneMask &alive, const Lanes &quanta)
+    {
+      return std::experimental::static_simd_cast<WholeLanes>(
+        select(alive, quanta, Lanes(0.)));
+    }
+
+    // The contact of two particles, one at a time, at rest in time.
+    Contact<double>
+    contact_of_pair(const Body &i, const Body &j, const double m_i, const double m_j)
+    {
+      Contact<double> contact;
+      const auto      between  = triple(j.position) - triple(i.position);
+      const double    distance = between.norm();
+      contact.overlap          = i.radius + j.radius - distance;
+      contact.normal           = (1. / distance) * between;
+      contact.radius           = i.radius * j.radius / (i.radius + j.radius);
+      contact.mass             = m_i * m_j / (m_i + m_j);
+      const double a_i         = i.radius - 0.5 * contact.overlap;
+      const double a_j         = j.radius - 0.5 * contact.overlap;
+      contact.velocity =
+        triple(i.velocity) - triple(j.velocity) +
+        cross(a_i * triple(i.spin) + a_j * triple(j.spin), contact.normal);
+      contact.step = 0.;
+      return contact;
+    }
+
+    Contact<double>
+    contact_of_wall(const Body &i, const double mass, const Wall &wall)
+    {
+      Contact<double> contact;
+      const auto      geometry = wall.at(triple(i.position));
+      contact.overlap          = i.radius - geometry.distance;
+      contact.normal           = geometry.normal;
+      contact.radius           = i.radius;
+      contact.mass             = mass;
+      contact.velocity         = triple(i.velocity) - wall.velocity() +
+                         geometry.distance * cross(triple(i.spin), contact.normal);
+      contact.step = 0.;
+      return contact;
+    }
+
+    double
+    overlap_of(const Body &a, const Body &b)
+    {
+      return a.radius + b.radius - a.position.distance(b.position);
     }
   } // namespace
 
-  ContactSweep::ContactSweep(const NormalLaws        &normal_law,
-                             const RollingLaws       &rolling_law,
-                             const std::vector<Wall> &walls,
-                             const double             reference_force,
-                             const double             reference_radius)
+  ContactSweep::ContactSweep(const NormalLaws  &normal_law,
+                             const RollingLaws &rolling_law,
+                             const unsigned int n_types,
+                             const unsigned int n_walls,
+                             const double       reference_force,
+                             const double       reference_radius)
     : normal_law(normal_law)
     , rolling_law(rolling_law)
-    , walls(walls)
+    , n_types(n_types)
+    , n_walls(n_walls)
     , largest_force(largest_relative_force * reference_force)
-    , force_quantum(reference_force * 0x1p-50)
-    , torque_quantum(force_quantum * reference_radius)
-    // Loads are summed over many sweeps and whole beds: more room, coarser.
-    , load_quantum(reference_force * 0x1p-36)
-    , inverse_force_quantum(1. / force_quantum)
-    , inverse_torque_quantum(1. / torque_quantum)
-    , inverse_load_quantum(1. / load_quantum)
-    , wall_memory(walls.size())
-    , loads(walls.size())
+    , quantum(reference_force, reference_radius)
+    , pair_lists(n_types * n_types)
+    , wall_lists(n_walls * n_types)
+    , idle_rows(n_walls)
+    , loads(n_walls)
   {
   }
 
   void
-  ContactSweep::load(const ParticleArrays &particles,
-                     const VerletList     &list,
-                     const SpringTable    &table)
+  ContactSweep::load(const ParticleArrays &particles, const SpringTable &table)
   {
-    const auto fetch = [&](const unsigned int row, const std::int64_t partner) {
-      const Springs *springs = table.find(row, partner);
-      return springs ? Memory{*springs, true} : Memory{};
-    };
+    for (auto *lists : {&pair_lists, &wall_lists})
+      for (auto &list : *lists)
+        list.clear();
 
-    pair_memory.resize(list.pairs.size());
-    for (std::size_t k = 0; k < list.pairs.size(); ++k)
-      {
-        const auto [i, j] = list.pairs[k];
-        pair_memory[k] =
-          i < particles.n_owned ? fetch(i, particles.id[j]) : fetch(j, particles.id[i]);
-      }
+    std::int64_t largest_id = 0;
+    for (const auto id : particles.id)
+      largest_id = std::max(largest_id, id);
+    std::vector<std::uint32_t> row_of(largest_id + 1, -1);
+    for (std::uint32_t row = 0; row < particles.n_rows(); ++row)
+      row_of[particles.id[row]] = row;
 
-    for (unsigned int w = 0; w < walls.size(); ++w)
-      {
-        wall_memory[w].clear();
-        for (const unsigned int i : list.wall_rows[w])
-          wall_memory[w].push_back(fetch(i, wall_id(w)));
-      }
-    sums.resize(particles.n_rows());
+    for (std::uint32_t i = 0; i < particles.n_owned; ++i)
+      for (const auto *entry = table.begin(i); entry != table.end(i); ++entry)
+        {
+          if (entry->partner < 0)
+            {
+              const unsigned int wall = -1 - entry->partner;
+              wall_lists[wall * n_types + particles.type[i]].add(i, i, entry->springs);
+              continue;
+            }
+          const std::uint32_t j = row_of[entry->partner];
+          // Both own: the copy of the lower id counts.
+          if (j < particles.n_owned && entry->partner < particles.id[i])
+            continue;
+          const NeighborPair pair =
+            particles.id[i] < entry->partner ? NeighborPair{i, j} : NeighborPair{j, i};
+          pair_list(particles, pair).add(pair.first, pair.second, entry->springs);
+        }
   }
 
-  std::string
-  ContactSweep::store(const ParticleArrays &particles,
-                      const VerletList     &list,
-                      SpringTable          &table) const
+  void
+  ContactSweep::store(const ParticleArrays &particles, SpringTable &table) const
   {
-    table.reset(particles.n_owned);
-    std::int64_t overfull = -1;
-    const auto   write =
-      [&](const unsigned int row, const std::int64_t partner, const Memory &m) {
-        if (row < particles.n_owned && m.touching && !table.add(row, partner, m.springs))
-          overfull = particles.id[row];
+    table.fill(particles.n_owned, [&](const auto &put) {
+      const auto put_if_own = [&](const std::uint32_t    row,
+                                  const std::int64_t     partner,
+                                  const Springs<double> &springs) {
+        if (row < particles.n_owned)
+          put(row, SpringTable::Entry{partner, springs});
       };
-
-    for (std::size_t k = 0; k < pair_memory.size(); ++k)
-      {
-        const auto [i, j] = list.pairs[k];
-        write(i, particles.id[j], pair_memory[k]);
-        write(j, particles.id[i], pair_memory[k]);
-      }
-    for (unsigned int w = 0; w < wall_memory.size(); ++w)
-      for (std::size_t k = 0; k < wall_memory[w].size(); ++k)
-        write(list.wall_rows[w][k], wall_id(w), wall_memory[w][k]);
-
-    if (overfull < 0)
-      return {};
-    return "particle " + std::to_string(overfull) + " touches more than " +
-           std::to_string(SpringTable::n_slots) +
-           " others, more than spheres of similar size can: are the radii too different?";
-  }
-
-  bool
-  ContactSweep::in_range(const ContactAction &action,
-                         const double         overlap,
-                         const double         radius) const
-  {
-    return overlap < largest_overlap * radius &&
-           action.force.norm_square() < largest_force * largest_force;
+      for (const auto &list : pair_lists)
+        for (std::size_t k = 0; k < list.size(); ++k)
+          {
+            const auto i = list.first(k), j = list.second(k);
+            put_if_own(i, particles.id[j], list.springs(k));
+            put_if_own(j, particles.id[i], list.springs(k));
+          }
+      for (unsigned int w = 0; w < wall_lists.size(); ++w)
+        for (std::size_t k = 0; k < wall_lists[w].size(); ++k)
+          put_if_own(
+            wall_lists[w].first(k), wall_id(w / n_types), wall_lists[w].springs(k));
+    });
   }
 
   void
-  ContactSweep::add(Quanta       &sum,
-                    const Vector &force,
-                    const Vector &torque,
-                    const double  sign) const
+  ContactSweep::renumber_ghosts(const std::vector<std::int64_t> &old_ids,
+                                const unsigned int               old_n_owned,
+                                const ParticleArrays            &particles)
   {
-    for (unsigned int d = 0; d < 3; ++d)
+    if (old_ids.size() == old_n_owned)
+      return;
+    std::vector<std::pair<std::int64_t, std::uint32_t>> ghosts;
+    for (std::uint32_t row = particles.n_owned; row < particles.n_rows(); ++row)
+      ghosts.emplace_back(particles.id[row], row);
+    std::sort(ghosts.begin(), ghosts.end());
+
+    std::vector<std::uint32_t> new_row(old_ids.size() - old_n_owned, -1);
+    for (std::size_t g = 0; g < new_row.size(); ++g)
       {
-        sum[d] += static_cast<std::int64_t>(sign * force[d] * inverse_force_quantum);
-        sum[3 + d] += static_cast<std::int64_t>(torque[d] * inverse_torque_quantum);
+        const auto found = std::lower_bound(
+          ghosts.begin(), ghosts.end(), std::make_pair(old_ids[old_n_owned + g], 0u));
+        if (found != ghosts.end() && found->first == old_ids[old_n_owned + g])
+          new_row[g] = found->second;
+      }
+    for (auto &list : pair_lists)
+      for (std::size_t k = 0; k < list.size(); ++k)
+        for (auto *row : {&list.first(k), &list.second(k)})
+          if (*row >= old_n_owned)
+            *row = new_row[*row - old_n_owned];
+  }
+
+  TouchingRows
+  ContactSweep::touching_rows(const unsigned int n_rows) const
+  {
+    TouchingRows touching;
+    touching.starts.assign(n_rows + 1, 0);
+    const auto each = [&](const auto &visit) {
+      for (const auto &list : pair_lists)
+        for (std::size_t k = 0; k < list.size(); ++k)
+          {
+            visit(list.first(k), list.second(k));
+            visit(list.second(k), list.first(k));
+          }
+    };
+    each([&](const std::uint32_t i, const std::uint32_t) { ++touching.starts[i + 1]; });
+    std::partial_sum(
+      touching.starts.begin(), touching.starts.end(), touching.starts.begin());
+    touching.partners.resize(touching.starts.back());
+    std::vector<std::uint32_t> next(touching.starts.begin(), touching.starts.end() - 1);
+    each([&](const std::uint32_t i, const std::uint32_t j) {
+      touching.partners[next[i]++] = j;
+    });
+    return touching;
+  }
+
+  void
+  ContactSweep::watch_walls(const VerletList &list)
+  {
+    std::vector<std::uint32_t> touching;
+    for (unsigned int w = 0; w < n_walls; ++w)
+      {
+        touching.clear();
+        for (unsigned int t = 0; t < n_types; ++t)
+          for (std::size_t k = 0; k < wall_lists[w * n_types + t].size(); ++k)
+            touching.push_back(wall_lists[w * n_types + t].first(k));
+        std::sort(touching.begin(), touching.end());
+        idle_rows[w].clear();
+        std::set_difference(list.wall_rows[w].begin(),
+                            list.wall_rows[w].end(),
+                            touching.begin(),
+                            touching.end(),
+                            std::back_inserter(idle_rows[w]));
       }
   }
 
   void
-  ContactSweep::fail(const unsigned int row,
-                     const std::int64_t partner,
-                     const double       overlap)
+  ContactSweep::begin_pairs(const ParticleArrays &particles, VerletList &list)
   {
-    failed_row     = row;
-    failed_partner = partner;
-    failed_overlap = overlap;
+    auto       &near = list.near;
+    std::size_t kept = 0;
+    for (std::size_t k = 0; k < near.size(); ++k)
+      {
+        const auto [i, j] = near[k];
+        if (overlap_of(particles.body[i], particles.body[j]) > 0.)
+          pair_list(particles, near[k]).begin(i, j);
+        else
+          near[kept++] = near[k];
+      }
+    near.resize(kept);
   }
 
-  // Not inlined, so that there is one piece of machine code for every pair:
-  // copies of an inlined body could contract products and sums differently.
+  void
+  ContactSweep::begin_walls(const ParticleArrays    &particles,
+                            const std::vector<Wall> &walls)
+  {
+    for (unsigned int w = 0; w < n_walls; ++w)
+      std::visit(
+        [&](const auto &surface) {
+          auto       &rows = idle_rows[w];
+          std::size_t kept = 0;
+          for (const std::uint32_t i : rows)
+            {
+              const Body &body = particles.body[i];
+              if (body.radius - surface.at(triple(body.position)).distance > 0.)
+                wall_lists[w * n_types + particles.type[i]].begin(i, i);
+              else
+                rows[kept++] = i;
+            }
+          rows.resize(kept);
+        },
+        walls[w].shape);
+  }
+
+  void
+  ContactSweep::examine(const LaneMask    &ends,
+                        const LaneMask    &broken,
+                        const Lanes       &overlap,
+                        const std::size_t  first_of_block,
+                        const ContactList &contacts,
+                        const bool         with_wall,
+                        const unsigned int wall)
+  {
+    for (unsigned int l = 0; l < n_lanes; ++l)
+      {
+        const std::size_t k = first_of_block + l;
+        if (ends[l])
+          ended.push_back(k);
+        else if (broken[l])
+          {
+            failed_first   = contacts.first(k);
+            failed_partner = with_wall ? wall_id(wall) : contacts.second(k);
+            failed_overlap = overlap[l];
+          }
+      }
+  }
+
   template <class NormalLaw, class RollingLaw>
   [[gnu::noinline]] void
-  ContactSweep::evaluate_pair(const ParticleArrays &p,
-                              const NeighborPair    pair,
-                              const PairMaterial   &material,
-                              const double          dt,
-                              Memory               &memory)
+  ContactSweep::sweep_pairs(ContactList        &contacts,
+                            ParticleArrays     &particles,
+                            const PairMaterial &material,
+                            const double        first_density,
+                            const double        second_density,
+                            const double        dt)
   {
-    const auto [i, j]     = pair;
-    const Vector between  = p.position[j] - p.position[i];
-    const double distance = between.norm();
-    const double r_i = p.radius[i], r_j = p.radius[j];
+    using std::min;
+    const double first_mass  = 4. / 3. * PI * first_density;
+    const double second_mass = 4. / 3. * PI * second_density;
+    const double to_force = 1. / quantum.force, to_torque = 1. / quantum.torque;
+    const Body  *bodies = particles.body.data();
+    Load        *sums   = particles.load.data();
 
-    Contact contact;
-    contact.overlap = r_i + r_j - distance;
-    if (!(contact.overlap > 0.))
+    for (std::size_t b = 0; b < contacts.blocks.size(); ++b)
       {
-        memory = Memory{};
-        return;
+        ContactList::Block &block = contacts.blocks[b];
+        const BodyLanes     i     = load_bodies(bodies, block.first);
+        const BodyLanes     j     = load_bodies(bodies, block.second);
+        const auto here = lane_numbers() < Lanes(1. * (contacts.size() - b * n_lanes));
+
+        Contact<Lanes>      contact;
+        const Triple<Lanes> between  = j.position - i.position;
+        const Lanes         distance = between.norm();
+        contact.overlap              = i.radius + j.radius - distance;
+        contact.normal               = (1. / distance) * between;
+        contact.radius               = i.radius * j.radius / (i.radius + j.radius);
+        const Lanes m_i              = first_mass * i.radius * i.radius * i.radius;
+        const Lanes m_j              = second_mass * j.radius * j.radius * j.radius;
+        contact.mass                 = m_i * m_j / (m_i + m_j);
+
+        // Arms to the middle of the overlap: they add up to the distance, so
+        // angular momentum is conserved.
+        const Lanes a_i = i.radius - 0.5 * contact.overlap;
+        const Lanes a_j = j.radius - 0.5 * contact.overlap;
+        contact.velocity =
+          i.velocity - j.velocity + cross(a_i * i.spin + a_j * j.spin, contact.normal);
+        contact.drift = i.drift - j.drift +
+                        cross(a_i * i.spin_drift + a_j * j.spin_drift, contact.normal);
+        contact.spin_drift = i.spin_drift - j.spin_drift;
+        contact.step       = dt;
+        const auto fresh   = lane_numbers() + static_cast<double>(b * n_lanes) >=
+                           Lanes(1. * contacts.first_fresh());
+        if (some(fresh))
+          contact.step = select(fresh, step_in_contact(contact, dt), contact.step);
+
+        Springs<Lanes> springs = load_springs(block);
+        const auto     alive =
+          here && contact.overlap > NormalLaw::release_overlap(material, contact.radius);
+        const auto action =
+          contact_action<NormalLaw, RollingLaw>(material, contact, springs);
+        store_springs(springs, block);
+
+        const auto broken =
+          alive && !(contact.overlap < largest_overlap * min(i.radius, j.radius) &&
+                     action.force.norm_square() < largest_force * largest_force);
+        if (some(here && !alive) || some(broken))
+          examine(
+            here && !alive, broken, contact.overlap, b * n_lanes, contacts, false, 0);
+        const auto counts = alive && !broken;
+
+        const auto       turning     = cross(contact.normal, action.force);
+        const auto       M           = action.rolling_torque;
+        const WholeLanes zero        = 0;
+        const WholeLanes F[3]        = {whole(counts, to_force * action.force.x),
+                                        whole(counts, to_force * action.force.y),
+                                        whole(counts, to_force * action.force.z)};
+        const auto       T_i         = a_i * turning + M;
+        const auto       T_j         = a_j * turning - M;
+        const WholeLanes on_first[8] = {F[0],
+                                        F[1],
+                                        F[2],
+                                        whole(counts, to_torque * T_i.x),
+                                        whole(counts, to_torque * T_i.y),
+                                        whole(counts, to_torque * T_i.z),
+                                        zero,
+                                        zero};
+        add_to_records(sums, block.first, on_first);
+        const WholeLanes on_second[8] = {-F[0],
+                                         -F[1],
+                                         -F[2],
+                                         whole(counts, to_torque * T_j.x),
+                                         whole(counts, to_torque * T_j.y),
+                                         whole(counts, to_torque * T_j.z),
+                                         zero,
+                                         zero};
+        add_to_records(sums, block.second, on_second);
       }
-    contact.normal = between / distance;
-    contact.radius = r_i * r_j / (r_i + r_j);
-    contact.mass   = p.mass[i] * p.mass[j] / (p.mass[i] + p.mass[j]);
-
-    // Arms to the middle of the overlap: they add up to the distance, so
-    // angular momentum is conserved.
-    const double a_i = r_i - 0.5 * contact.overlap, a_j = r_j - 0.5 * contact.overlap;
-    contact.velocity =
-      p.velocity[i] - p.velocity[j] +
-      cross_product_3d(a_i * p.spin[i] + a_j * p.spin[j], contact.normal);
-    contact.drift =
-      p.drift[i] - p.drift[j] +
-      cross_product_3d(a_i * p.spin_drift[i] + a_j * p.spin_drift[j], contact.normal);
-    contact.spin_drift = p.spin_drift[i] - p.spin_drift[j];
-    contact.step       = memory.touching ? dt : step_in_contact(contact, dt);
-    memory.touching    = true;
-    ++evaluated;
-
-    const ContactAction action =
-      contact_action<NormalLaw, RollingLaw>(material, contact, memory.springs);
-    if (!in_range(action, contact.overlap, std::min(r_i, r_j)))
-      return fail(i, p.id[j], contact.overlap);
-
-    const Vector turning = cross_product_3d(contact.normal, action.force);
-    add(sums[i], action.force, a_i * turning + action.rolling_torque, 1.);
-    add(sums[j], action.force, a_j * turning - action.rolling_torque, -1.);
   }
 
   template <class NormalLaw, class RollingLaw, class Surface>
   [[gnu::noinline]] void
-  ContactSweep::evaluate_wall(const ParticleArrays &p,
-                              const unsigned int    i,
-                              const unsigned int    wall,
-                              const Surface        &surface,
-                              const PairMaterial   &material,
-                              const double          dt,
-                              Memory               &memory)
+  ContactSweep::sweep_wall(ContactList        &contacts,
+                           ParticleArrays     &particles,
+                           const unsigned int  wall,
+                           const Surface      &surface,
+                           const PairMaterial &material,
+                           const double        density,
+                           const double        dt)
   {
-    const WallGeometry geometry = surface.at(p.position[i]);
+    const double        to_mass  = 4. / 3. * PI * density;
+    const double        to_force = 1. / quantum.force, to_torque = 1. / quantum.torque;
+    const Triple<Lanes> u{surface.velocity.x, surface.velocity.y, surface.velocity.z};
+    WholeLanes          sum[3] = {0, 0, 0};
 
-    Contact contact;
-    contact.overlap = p.radius[i] - geometry.distance;
-    if (!(contact.overlap > 0.))
+    for (std::size_t b = 0; b < contacts.blocks.size(); ++b)
       {
-        memory = Memory{};
-        return;
+        ContactList::Block &block    = contacts.blocks[b];
+        const BodyLanes     i        = load_bodies(particles.body.data(), block.first);
+        const auto          geometry = surface.at(i.position);
+        const auto here = lane_numbers() < Lanes(1. * (contacts.size() - b * n_lanes));
+
+        // The curvature of the tube is small against that of the sphere and left
+        // out of R*; the mass of the wall is infinite.
+        Contact<Lanes> contact;
+        const Lanes    arm = geometry.distance;
+        contact.overlap    = i.radius - geometry.distance;
+        contact.normal     = geometry.normal;
+        contact.radius     = i.radius;
+        contact.mass       = to_mass * i.radius * i.radius * i.radius;
+        contact.velocity   = i.velocity - u + arm * cross(i.spin, contact.normal);
+        contact.drift      = i.drift - u + arm * cross(i.spin_drift, contact.normal);
+        contact.spin_drift = i.spin_drift;
+        contact.step       = dt;
+        const auto fresh   = lane_numbers() + static_cast<double>(b * n_lanes) >=
+                           Lanes(1. * contacts.first_fresh());
+        if (some(fresh))
+          contact.step = select(fresh, step_in_contact(contact, dt), contact.step);
+
+        Springs<Lanes> springs = load_springs(block);
+        const auto     alive =
+          here && contact.overlap > NormalLaw::release_overlap(material, contact.radius);
+        const auto action =
+          contact_action<NormalLaw, RollingLaw>(material, contact, springs);
+        store_springs(springs, block);
+
+        const auto broken =
+          alive && !(contact.overlap < largest_overlap * i.radius &&
+                     action.force.norm_square() < largest_force * largest_force);
+        if (some(here && !alive) || some(broken))
+          examine(
+            here && !alive, broken, contact.overlap, b * n_lanes, contacts, true, wall);
+        const auto counts = alive && !broken;
+
+        const auto torque =
+          arm * cross(contact.normal, action.force) + action.rolling_torque;
+        const WholeLanes zero        = 0;
+        const WholeLanes on_first[8] = {whole(counts, to_force * action.force.x),
+                                        whole(counts, to_force * action.force.y),
+                                        whole(counts, to_force * action.force.z),
+                                        whole(counts, to_torque * torque.x),
+                                        whole(counts, to_torque * torque.y),
+                                        whole(counts, to_torque * torque.z),
+                                        zero,
+                                        zero};
+        add_to_records(particles.load.data(), block.first, on_first);
+        sum[0] -= whole(counts, (1. / quantum.wall) * action.force.x);
+        sum[1] -= whole(counts, (1. / quantum.wall) * action.force.y);
+        sum[2] -= whole(counts, (1. / quantum.wall) * action.force.z);
       }
-    // The curvature of the tube is small against that of the sphere and left
-    // out of R*; the mass of the wall is infinite.
-    contact.normal   = geometry.normal;
-    contact.radius   = p.radius[i];
-    contact.mass     = p.mass[i];
-    const double arm = geometry.distance;
-    contact.velocity = p.velocity[i] + arm * cross_product_3d(p.spin[i], contact.normal);
-    contact.drift = p.drift[i] + arm * cross_product_3d(p.spin_drift[i], contact.normal);
-    contact.spin_drift = p.spin_drift[i];
-    contact.step       = memory.touching ? dt : step_in_contact(contact, dt);
-    memory.touching    = true;
-    ++evaluated;
-
-    const ContactAction action =
-      contact_action<NormalLaw, RollingLaw>(material, contact, memory.springs);
-    if (!in_range(action, contact.overlap, p.radius[i]))
-      return fail(i, wall_id(wall), contact.overlap);
-
-    add(sums[i],
-        action.force,
-        arm * cross_product_3d(contact.normal, action.force) + action.rolling_torque,
-        1.);
     for (unsigned int d = 0; d < 3; ++d)
-      loads[wall][d] -= static_cast<std::int64_t>(action.force[d] * inverse_load_quantum);
-  }
-
-  template <class NormalLaw, class RollingLaw>
-  void
-  ContactSweep::sweep_pairs(const ParticleArrays            &particles,
-                            const std::vector<NeighborPair> &pairs,
-                            const PairMaterial              &material,
-                            const double                     dt)
-  {
-    for (std::size_t k = 0; k < pairs.size(); ++k)
-      {
-        const auto [i, j]  = pairs[k];
-        const double reach = particles.radius[i] + particles.radius[j];
-        const double gap = (particles.position[j] - particles.position[i]).norm_square();
-        if (gap < reach * reach * test_margin || pair_memory[k].touching)
-          evaluate_pair<NormalLaw, RollingLaw>(
-            particles, pairs[k], material, dt, pair_memory[k]);
-      }
+      loads[wall][d] += std::experimental::reduce(sum[d]);
   }
 
   void
-  ContactSweep::sweep(ParticleArrays   &particles,
-                      const VerletList &list,
-                      const Materials  &materials,
-                      const double      dt)
+  ContactSweep::sweep(ParticleArrays          &particles,
+                      VerletList              &list,
+                      const std::vector<Wall> &walls,
+                      const Materials         &materials,
+                      const double             dt)
   {
-    std::fill(sums.begin(), sums.end(), Quanta{});
-    evaluated      = 0;
     failed_overlap = 0.;
+    begin_pairs(particles, list);
+    begin_walls(particles, walls);
 
     std::visit(
       [&](const auto normal, const auto rolling) {
         using NormalLaw  = std::decay_t<decltype(normal)>;
         using RollingLaw = std::decay_t<decltype(rolling)>;
-        sweep_pairs<NormalLaw, RollingLaw>(
-          particles, list.pairs, materials.particles, dt);
+        for (unsigned int first = 0; first < n_types; ++first)
+          for (unsigned int second = 0; second < n_types; ++second)
+            {
+              ContactList &contacts = pair_lists[first * n_types + second];
+              ended.clear();
+              sweep_pairs<NormalLaw, RollingLaw>(contacts,
+                                                 particles,
+                                                 materials.between(first, second),
+                                                 materials.density[first],
+                                                 materials.density[second],
+                                                 dt);
+              contacts.age();
+              for (auto k = ended.rbegin(); k != ended.rend(); ++k)
+                {
+                  list.near.push_back({contacts.first(*k), contacts.second(*k)});
+                  contacts.remove(*k);
+                }
+            }
 
-        for (unsigned int w = 0; w < walls.size(); ++w)
-          std::visit(
-            [&](const auto &surface) {
-              for (std::size_t k = 0; k < list.wall_rows[w].size(); ++k)
-                evaluate_wall<NormalLaw, RollingLaw>(particles,
-                                                     list.wall_rows[w][k],
-                                                     w,
-                                                     surface,
-                                                     materials.walls,
-                                                     dt,
-                                                     wall_memory[w][k]);
-            },
-            walls[w].shape);
+        for (unsigned int w = 0; w < n_walls; ++w)
+          for (unsigned int type = 0; type < n_types; ++type)
+            {
+              ContactList &contacts = wall_lists[w * n_types + type];
+              ended.clear();
+              std::visit(
+                [&](const auto &surface) {
+                  sweep_wall<NormalLaw, RollingLaw>(contacts,
+                                                    particles,
+                                                    w,
+                                                    surface,
+                                                    materials.with_wall(w, type),
+                                                    materials.density[type],
+                                                    dt);
+                },
+                walls[w].shape);
+              contacts.age();
+              for (auto k = ended.rbegin(); k != ended.rend(); ++k)
+                {
+                  idle_rows[w].push_back(contacts.first(*k));
+                  contacts.remove(*k);
+                }
+            }
       },
       normal_law,
       rolling_law);
-
-    for (unsigned int i = 0; i < particles.n_owned; ++i)
-      for (unsigned int d = 0; d < 3; ++d)
-        {
-          particles.force[i][d]  = force_quantum * static_cast<double>(sums[i][d]);
-          particles.torque[i][d] = torque_quantum * static_cast<double>(sums[i][3 + d]);
-        }
   }
 
   std::string
-  ContactSweep::failure(const ParticleArrays &particles) const
+  ContactSweep::failure(const ParticleArrays    &particles,
+                        const std::vector<Wall> &walls) const
   {
     if (!failed())
       return {};
     std::ostringstream text;
-    text << "particle " << particles.id[failed_row] << " at ("
-         << particles.position[failed_row] << ") m overlaps "
-         << (failed_partner < 0 ? "the " + walls[-1 - failed_partner].name
-                                : "particle " + std::to_string(failed_partner))
+    text << "particle " << particles.id[failed_first] << " at ("
+         << particles.body[failed_first].position << ") m overlaps "
+         << (failed_partner < 0
+               ? "the " + walls[-1 - failed_partner].name
+               : "particle " + std::to_string(particles.id[failed_partner]))
          << " by " << failed_overlap << " m, "
-         << 100. * failed_overlap / particles.radius[failed_row]
+         << 100. * failed_overlap / particles.body[failed_first].radius
          << " % of its radius; the contact law ends at " << 100. * largest_overlap
          << " %. Try a smaller substep, a larger Young's modulus or normal stiffness, or "
             "a slower "
@@ -309,25 +575,93 @@ namespace graupel
     return text.str();
   }
 
-  unsigned int
-  ContactSweep::n_touching_pairs(const ParticleArrays &particles,
-                                 const VerletList     &list) const
+  std::size_t
+  ContactSweep::n_touching_pairs(const ParticleArrays &particles) const
   {
-    unsigned int n = 0;
-    for (std::size_t k = 0; k < pair_memory.size(); ++k)
-      if (pair_memory[k].touching && list.pairs[k].first < particles.n_owned)
-        ++n;
+    std::size_t n = 0;
+    for (const auto &list : pair_lists)
+      for (std::size_t k = 0; k < list.size(); ++k)
+        n += list.first(k) < particles.n_owned;
     return n;
   }
 
-  unsigned int
+  std::size_t
   ContactSweep::n_touching_walls() const
   {
-    unsigned int n = 0;
-    for (const auto &memories : wall_memory)
-      n += std::count_if(
-        memories.begin(), memories.end(), [](const Memory &m) { return m.touching; });
+    std::size_t n = 0;
+    for (const auto &list : wall_lists)
+      n += list.size();
     return n;
+  }
+
+  std::size_t
+  ContactSweep::n_contacts() const
+  {
+    std::size_t n = n_touching_walls();
+    for (const auto &list : pair_lists)
+      n += list.size();
+    return n;
+  }
+
+  std::vector<ContactState>
+  ContactSweep::states(const ParticleArrays    &p,
+                       const std::vector<Wall> &walls,
+                       const Materials         &materials,
+                       const bool               of_ghosts) const
+  {
+    // A step of no length moves no spring, so the law gives the present force.
+    std::vector<ContactState> states;
+    const auto                evaluate = [&](const auto &action_of) {
+      std::visit(
+        [&](const auto normal, const auto rolling) { action_of(normal, rolling); },
+        normal_law,
+        rolling_law);
+    };
+    evaluate([&](const auto normal, const auto rolling) {
+      using NormalLaw  = std::decay_t<decltype(normal)>;
+      using RollingLaw = std::decay_t<decltype(rolling)>;
+      for (const auto &list : pair_lists)
+        for (std::size_t k = 0; k < list.size(); ++k)
+          if (of_ghosts || list.first(k) < p.n_owned)
+            {
+              const auto i = list.first(k), j = list.second(k);
+              const auto contact = contact_of_pair(
+                p.body[i],
+                p.body[j],
+                materials.density[p.type[i]] * sphere_volume(p.body[i].radius),
+                materials.density[p.type[j]] * sphere_volume(p.body[j].radius));
+              auto       springs = list.springs(k);
+              const auto action  = contact_action<NormalLaw, RollingLaw>(
+                materials.between(p.type[i], p.type[j]), contact, springs);
+              states.push_back({p.id[i],
+                                p.id[j],
+                                p.body[i].position,
+                                p.body[j].position,
+                                contact.overlap,
+                                tensor(contact.normal),
+                                tensor(action.force)});
+            }
+      for (unsigned int w = 0; w < wall_lists.size(); ++w)
+        for (std::size_t k = 0; k < wall_lists[w].size(); ++k)
+          {
+            const auto i = wall_lists[w].first(k);
+            const auto contact =
+              contact_of_wall(p.body[i], p.mass[i], walls[w / n_types]);
+            auto       springs = wall_lists[w].springs(k);
+            const auto action  = contact_action<NormalLaw, RollingLaw>(
+              materials.with_wall(w / n_types, w % n_types), contact, springs);
+            const auto normal_vector = tensor(contact.normal);
+            states.push_back(
+              {p.id[i],
+               wall_id(w / n_types),
+               p.body[i].position,
+               p.body[i].position + (p.body[i].radius - contact.overlap) * normal_vector,
+               contact.overlap,
+               normal_vector,
+               tensor(action.force)});
+          }
+    });
+    return states;
   }
 
   void
@@ -347,7 +681,7 @@ namespace graupel
     std::vector<dealii::Tensor<1, 3>> forces(loads.size());
     for (unsigned int w = 0; w < all.size(); ++w)
       for (unsigned int d = 0; d < 3; ++d)
-        forces[w][d] = load_quantum * static_cast<double>(all[w][d]);
+        forces[w][d] = quantum.wall * static_cast<double>(all[w][d]);
     return forces;
   }
 } // namespace graupel

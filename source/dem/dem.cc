@@ -8,70 +8,45 @@ namespace graupel
 {
   namespace
   {
-    using Vector = dealii::Tensor<1, 3>;
-
+    using Vector              = dealii::Tensor<1, 3>;
+    namespace mpi             = dealii::Utilities::MPI;
     constexpr double infinity = std::numeric_limits<double>::infinity();
 
-    // One particle's half kick and drift. Not inlined, so that every particle
-    // passes through the same machine code, whatever its row: see ContactSweep.
-    [[gnu::noinline]] void
-    drift_particle(ParticleArrays    &p,
-                   const unsigned int i,
-                   const double       gravity,
-                   const double       dt)
-    {
-      Vector half_kick = (p.force[i] + p.external_force[i]) / p.mass[i];
-      half_kick[2] -= gravity;
-      half_kick *= 0.5 * dt;
-      const Vector half_turn = (0.5 * dt / p.inertia[i]) * p.torque[i];
+    // Skin of the near pairs, over the radius of a particle.
+    constexpr double relative_near_skin = 0.1;
 
-      p.drift[i]      = p.velocity[i] + half_kick;
-      p.spin_drift[i] = p.spin[i] + half_turn;
-      p.position[i] += dt * p.drift[i];
-      p.velocity[i] = p.drift[i] + half_kick;
-      p.spin[i]     = p.spin_drift[i] + half_turn;
-    }
+    // Ranks may differ by this much in their particles.
+    constexpr double tolerated_imbalance = 0.05;
 
-    [[gnu::noinline]] void
-    kick_particle(ParticleArrays    &p,
-                  const unsigned int i,
-                  const double       gravity,
-                  const double       dt)
-    {
-      Vector half_kick = (p.force[i] + p.external_force[i]) / p.mass[i];
-      half_kick[2] -= gravity;
-      p.velocity[i] = p.drift[i] + (0.5 * dt) * half_kick;
-      p.spin[i]     = p.spin_drift[i] + (0.5 * dt / p.inertia[i]) * p.torque[i];
-    }
-
-    [[gnu::noinline]] double
+    double
     kinetic_energy(const ParticleArrays &p, const unsigned int i)
     {
-      return 0.5 * (p.mass[i] * p.velocity[i].norm_square() +
-                    p.inertia[i] * p.spin[i].norm_square());
+      const double r = p.body[i].radius;
+      return 0.5 * p.mass[i] *
+             (p.body[i].velocity.norm_square() +
+              0.4 * r * r * p.body[i].spin.norm_square());
     }
   } // namespace
 
-  Dem::Dem(const DemParameters &parameters, const CylinderMesh &mesh, CostSheet &costs)
+  Dem::Dem(const DemParameters &parameters, CylinderMesh &mesh, CostSheet &costs)
     : input(parameters)
     , mesh(mesh)
     , costs(costs)
-    , smallest_edge(mesh.smallest_edge())
     , longest_substep(input.substep())
-    , skin(input.contact.skin * 2. * input.particles.simulated_radius())
-    , materials{input.particle_pair(false), input.wall_pair(false)}
-    , gravity(input.particles.gravity)
-    , particle_store(mesh, input.particles.density)
+    , skin(input.contact.skin * 2. * input.largest_radius())
+    , near_skin(std::min(0.5 * skin, relative_near_skin * input.largest_radius()))
     , walls(vessel_walls(mesh.cylinder()))
-    , halo(mesh.cylinder(),
-           2. * input.particles.simulated_radius() + skin,
-           mesh.communicator())
-    , list(skin)
+    , materials(input.materials(false, walls.size()))
+    , gravity({0., 0., -input.particles.gravity})
+    , particle_store(mesh)
+    , halo(mesh.cylinder(), 2. * input.largest_radius() + skin, mesh.communicator())
+    , list(skin, near_skin)
     , contacts(input.normal_law(),
                input.rolling_law(),
-               walls,
+               materials.n_types(),
+               walls.size(),
                input.reference_force(),
-               input.particles.simulated_radius())
+               input.largest_radius())
     , wall_loads(walls.size())
   {
   }
@@ -79,45 +54,112 @@ namespace graupel
   void
   Dem::insert(const std::vector<dealii::Point<3>> &positions, const Vector &velocity)
   {
-    save_springs();
-    particle_store.scatter(arrays, spring_table);
-    particle_store.insert(positions, input.particles.simulated_radius(), velocity);
-    particle_store.migrate();
-    particle_store.gather(arrays, spring_table);
-    move_since_migration = 0.;
-    list_is_valid        = false;
+    std::vector<NewParticle> added;
+    for (const auto &position : positions)
+      added.push_back(
+        {position, input.particles.simulated_radius(), velocity, Vector(), 0});
+    insert(added);
+  }
+
+  void
+  Dem::insert(const std::vector<NewParticle> &added)
+  {
+    // The ghosts make room; the contacts with them find them again by their ids.
+    const auto         old_ids     = arrays.id;
+    const unsigned int old_n_owned = arrays.n_owned;
+    arrays.resize(arrays.n_owned);
+    particle_store.insert(added, arrays);
+    for (unsigned int row = old_n_owned; row < arrays.n_owned; ++row)
+      arrays.mass[row] =
+        materials.density[arrays.type[row]] * sphere_volume(arrays.body[row].radius);
+    for (const auto &particle : added)
+      {
+        const double volume = sphere_volume(particle.radius);
+        total_volume += volume;
+        total_mass += materials.density[particle.type] * volume;
+      }
+    if (mpi::n_mpi_processes(communicator()) > 1)
+      {
+        halo.rebuild(arrays);
+        contacts.renumber_ghosts(old_ids, old_n_owned, arrays);
+      }
+    list_is_valid = false;
   }
 
   void
   Dem::synchronise()
   {
-    save_springs();
-    particle_store.scatter(arrays, spring_table);
-    particle_store.migrate();
-    particle_store.gather(arrays, spring_table);
-    move_since_migration = 0.;
-    list_is_valid        = false;
+    CostSheet::Scope scope(costs, CostSheet::neighbor);
+    store_springs();
+    particle_store.migrate(arrays, spring_table, {});
+    restart_contacts();
+  }
+
+  bool
+  Dem::balance(const double cell_share)
+  {
+    CostSheet::Scope   scope(costs, CostSheet::neighbor);
+    const unsigned int n_ranks = mpi::n_mpi_processes(communicator());
+    const double cells = cell_share * mesh.triangulation().n_locally_owned_active_cells();
+    const double mine  = arrays.n_owned + cells;
+    const double most  = mpi::max(mine, communicator());
+    const double mean  = mpi::sum(mine, communicator()) / n_ranks;
+    if (most <= (1. + tolerated_imbalance) * mean)
+      return false;
+    store_springs();
+    constexpr unsigned int particle_weight = 1000;
+    particle_store.repartition(
+      arrays,
+      spring_table,
+      std::max(1u, static_cast<unsigned int>(cell_share * particle_weight)),
+      particle_weight);
+    restart_contacts();
+    return true;
   }
 
   void
-  Dem::save_springs()
+  Dem::store_springs()
   {
-    // Without a valid list the table, as gathered, is what is current.
-    if (list_is_valid)
-      throw_together(contacts.store(arrays, list, spring_table), communicator());
+    contacts.store(arrays, spring_table);
+  }
+
+  void
+  Dem::restart_contacts()
+  {
+    halo.rebuild(arrays);
+    contacts.load(arrays, spring_table);
+    spring_table.clear();
+    list.clear();
+    list_is_valid = false;
   }
 
   void
   Dem::use_packing_materials(const bool packing)
   {
-    materials = {input.particle_pair(packing), input.wall_pair(packing)};
+    materials = input.materials(packing, walls.size());
   }
 
   void
-  Dem::set_friction(const double particles, const double walls)
+  Dem::set_friction(const double particles, const double with_walls)
   {
-    materials.particles.friction = particles;
-    materials.walls.friction     = walls;
+    for (auto &pair : materials.particles)
+      pair.friction = particles;
+    for (auto &pair : materials.walls)
+      pair.friction = with_walls;
+  }
+
+  bool
+  Dem::has_external_forces() const
+  {
+    return std::any_of(arrays.external_force.begin(),
+                       arrays.external_force.end(),
+                       [](const Vector &force) { return !(force.norm_square() == 0.); });
+  }
+
+  Integration
+  Dem::integration(const double dt) const
+  {
+    return {contacts.quanta(), gravity, dt, external_forces};
   }
 
   void
@@ -129,118 +171,126 @@ namespace graupel
       static_cast<unsigned int>(std::ceil(duration / longest_substep - 1e-9));
     const auto dt = duration / std::max(1u, n);
 
+    external_forces = has_external_forces();
     contacts.reset_wall_loads();
     for (unsigned int s = 0; s < n; ++s)
-      substep_by(dt);
+      substep_by(dt, s == 0);
+    if (n > 0)
+      {
+        CostSheet::Scope scope(costs, CostSheet::contact);
+        kick(arrays, integration(dt));
+      }
 
     wall_loads = contacts.wall_loads(communicator());
     for (auto &load : wall_loads)
       load /= std::max(1u, n);
     // A failure in the last substep was not yet told to the other ranks.
-    throw_together(contacts.failure(arrays), communicator());
+    throw_together(contacts.failure(arrays, walls), communicator());
   }
 
   void
-  Dem::substep_by(const double dt)
+  Dem::substep_by(const double dt, const bool first)
   {
-    // deal.II loses particles that cross more than one layer of cells between
-    // two migrations, unless there is one rank only.
-    if (dealii::Utilities::MPI::n_mpi_processes(communicator()) > 1 &&
-        move_since_migration + move_since_list > 0.5 * smallest_edge)
-      synchronise();
-
-    drift(dt);
-    update_neighbors();
+    // One number tells all ranks both how far particles go and whether some rank
+    // must stop.
+    double speed_square = infinity;
+    if (!contacts.failed())
+      {
+        CostSheet::Scope scope(costs, CostSheet::contact);
+        speed_square = first ? drift(arrays, integration(dt))
+                             : kick_and_drift(arrays, integration(dt));
+      }
+    double wall_speed = 0.;
+    for (auto &wall : walls)
+      {
+        wall.move(dt);
+        wall_speed = std::max(wall_speed, wall.velocity().norm());
+      }
     {
       CostSheet::Scope scope(costs, CostSheet::halo);
-      halo.refresh(arrays);
+      speed_square = mpi::max(speed_square, communicator());
     }
+    if (speed_square == infinity)
+      throw_together(first_problem(), communicator());
+    const double moved = dt * (std::sqrt(speed_square) + wall_speed);
+    moved_since_list += moved;
+    moved_since_sort += moved;
+
+    update_neighbors();
     CostSheet::Scope scope(costs, CostSheet::contact);
-    contacts.sweep(arrays, list, materials, dt);
-    kick(dt);
+    contacts.sweep(arrays, list, walls, materials, dt);
     costs.particle_steps += arrays.n_owned;
-    costs.contact_steps += contacts.n_evaluated();
-  }
-
-  void
-  Dem::drift(const double dt)
-  {
-    CostSheet::Scope scope(costs, CostSheet::contact);
-    for (unsigned int i = 0; i < arrays.n_owned; ++i)
-      drift_particle(arrays, i, gravity, dt);
-  }
-
-  void
-  Dem::kick(const double dt)
-  {
-    for (unsigned int i = 0; i < arrays.n_owned; ++i)
-      kick_particle(arrays, i, gravity, dt);
+    costs.contact_steps += contacts.n_contacts();
   }
 
   void
   Dem::update_neighbors()
   {
-    // One number tells all ranks both how far particles went and whether some
-    // rank must stop.
-    const std::string problem  = first_problem();
-    double            farthest = problem.empty() ? 0. : infinity;
-    if (list_is_valid)
-      for (unsigned int i = 0; i < arrays.n_owned; ++i)
-        farthest =
-          std::max(farthest, (arrays.position[i] - listed_position[i]).norm_square());
+    // Rounding must not let a pair slip through.
+    const double half_skin = 0.4999 * skin, half_near_skin = 0.4999 * near_skin;
+    if (list_is_valid && moved_since_list >= half_skin)
+      {
+        // The bound adds up the fastest particle of each substep.
+        CostSheet::Scope scope(costs, CostSheet::neighbor);
+        moved_since_list = mpi::max(list.largest_move(arrays), communicator());
+        list_is_valid    = moved_since_list < 0.8 * half_skin;
+      }
+    if (!list_is_valid)
+      return list_neighbors();
     {
       CostSheet::Scope scope(costs, CostSheet::halo);
-      farthest = dealii::Utilities::MPI::max(farthest, communicator());
+      halo.refresh(arrays);
     }
-    if (farthest == infinity)
-      throw_together(problem, communicator());
-
-    move_since_list = std::sqrt(farthest);
-    if (!list_is_valid || move_since_list >= 0.4999 * skin)
-      rebuild_list();
+    if (moved_since_sort >= half_near_skin)
+      {
+        CostSheet::Scope scope(costs, CostSheet::neighbor);
+        list.sort_by_distance(arrays);
+        moved_since_sort = 0.;
+      }
   }
 
   std::string
   Dem::first_problem() const
   {
     if (contacts.failed())
-      return contacts.failure(arrays);
+      return contacts.failure(arrays, walls);
     for (unsigned int i = 0; i < arrays.n_owned; ++i)
-      if (!std::isfinite(arrays.position[i].norm_square()))
+      if (!std::isfinite(arrays.body[i].position.norm_square()))
         return "particle " + std::to_string(arrays.id[i]) +
                " has no finite position any more; is the force from outside finite?";
     return {};
   }
 
   void
-  Dem::rebuild_list()
+  Dem::list_neighbors()
   {
-    save_springs();
-    move_since_migration += move_since_list;
-    move_since_list = 0.;
-    {
-      CostSheet::Scope scope(costs, CostSheet::halo);
-      halo.rebuild(arrays, input.particles.density);
-    }
+    if (mpi::n_mpi_processes(communicator()) > 1)
+      {
+        CostSheet::Scope   scope(costs, CostSheet::halo);
+        const auto         old_ids     = arrays.id;
+        const unsigned int old_n_owned = arrays.n_owned;
+        halo.rebuild(arrays);
+        contacts.renumber_ghosts(old_ids, old_n_owned, arrays);
+      }
     CostSheet::Scope scope(costs, CostSheet::neighbor);
-    list.build(arrays, walls);
-    contacts.load(arrays, list, spring_table);
-    listed_position.assign(arrays.position.begin(),
-                           arrays.position.begin() + arrays.n_owned);
-    list_is_valid = true;
+    list.build(arrays, walls, contacts.touching_rows(arrays.n_rows()));
+    contacts.watch_walls(list);
+    moved_since_list = mpi::max(list.largest_move(arrays), communicator());
+    moved_since_sort = 0.;
+    list_is_valid    = true;
     ++list_builds;
   }
 
   double
   Dem::solid_volume() const
   {
-    return n_global() * sphere_volume(input.particles.simulated_radius());
+    return total_volume;
   }
 
   double
   Dem::weight() const
   {
-    return n_global() * input.particles.simulated_mass() * input.particles.gravity;
+    return total_mass * input.particles.gravity;
   }
 
   double
@@ -248,8 +298,8 @@ namespace graupel
   {
     double largest = 0.;
     for (unsigned int i = 0; i < arrays.n_owned; ++i)
-      largest = std::max(largest, arrays.velocity[i].norm_square());
-    return std::sqrt(dealii::Utilities::MPI::max(largest, communicator()));
+      largest = std::max(largest, arrays.body[i].velocity.norm_square());
+    return std::sqrt(mpi::max(largest, communicator()));
   }
 
   double
@@ -258,7 +308,7 @@ namespace graupel
     double largest = 0.;
     for (unsigned int i = 0; i < arrays.n_owned; ++i)
       largest = std::max(largest, kinetic_energy(arrays, i));
-    ExactSum sum(dealii::Utilities::MPI::max(largest, communicator()));
+    ExactSum sum(mpi::max(largest, communicator()));
     for (unsigned int i = 0; i < arrays.n_owned; ++i)
       sum.add(kinetic_energy(arrays, i));
     return sum.total(communicator()) / std::max(1u, n_global());
@@ -267,15 +317,10 @@ namespace graupel
   double
   Dem::coordination_number() const
   {
-    // Each pair counts for both of its partners, on the rank of its lower id or
-    // in the tables of both.
-    unsigned int contacts_of_particles = 0;
-    if (list_is_valid)
-      contacts_of_particles = 2 * contacts.n_touching_pairs(arrays, list);
-    else
-      for (unsigned int i = 0; i < arrays.n_owned; ++i)
-        contacts_of_particles += spring_table.n_particle_contacts(i);
-    return dealii::Utilities::MPI::sum(contacts_of_particles, communicator()) /
-           std::max(1., 1. * n_global());
+    // Each pair counts for both of its partners, on the rank of its lower id.
+    return 2. *
+           mpi::sum(static_cast<double>(contacts.n_touching_pairs(arrays)),
+                    communicator()) /
+           std::max(1u, n_global());
   }
 } // namespace graupel

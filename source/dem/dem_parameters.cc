@@ -284,7 +284,8 @@ namespace graupel
     const double overlap = 0.1 * r;
     if (contact.model == "linear-spring")
       return contact.normal_stiffness * overlap;
-    return 4. / 3. * particle_pair(false).young * std::sqrt(0.5 * r * overlap) * overlap;
+    return 4. / 3. * materials(false, 0).between(0, 0).young *
+           std::sqrt(0.5 * r * overlap) * overlap;
   }
 
   double
@@ -293,7 +294,7 @@ namespace graupel
     if (contact.model == "linear-spring")
       return force / contact.normal_stiffness;
     return hertz_overlap(
-      force, particle_pair(false).young, 0.5 * particles.simulated_radius());
+      force, materials(false, 0).between(0, 0).young, 0.5 * particles.simulated_radius());
   }
 
   NormalLaws
@@ -314,32 +315,29 @@ namespace graupel
     return SpringRolling{};
   }
 
-  PairMaterial
-  DemParameters::particle_pair(const bool packing) const
+  Materials
+  DemParameters::materials(const bool packing, const unsigned int n_walls) const
   {
-    Surface surface = contact.particle_surface;
+    Surface between = contact.particle_surface, with_wall = contact.wall_surface;
     if (packing)
-      surface = {surface.restitution,
-                 contact.packing_particle_friction,
-                 contact.packing_particle_rolling};
-    return PairMaterial(contact.particle_elasticity,
-                        contact.particle_elasticity,
-                        surface,
-                        contact.normal_stiffness,
-                        contact.stiffness_ratio);
-  }
-
-  PairMaterial
-  DemParameters::wall_pair(const bool packing) const
-  {
-    Surface surface = contact.wall_surface;
-    if (packing)
-      surface = {
-        surface.restitution, contact.packing_wall_friction, contact.packing_wall_rolling};
-    return PairMaterial(contact.particle_elasticity,
-                        contact.wall_elasticity,
-                        surface,
-                        contact.normal_stiffness,
-                        contact.stiffness_ratio);
+      {
+        between.friction             = contact.packing_particle_friction;
+        between.rolling_resistance   = contact.packing_particle_rolling;
+        with_wall.friction           = contact.packing_wall_friction;
+        with_wall.rolling_resistance = contact.packing_wall_rolling;
+      }
+    const PairMaterial particle_pair(contact.particle_elasticity,
+                                     contact.particle_elasticity,
+                                     between,
+                                     contact.normal_stiffness,
+                                     contact.stiffness_ratio);
+    const PairMaterial wall_pair(contact.particle_elasticity,
+                                 contact.wall_elasticity,
+                                 with_wall,
+                                 contact.normal_stiffness,
+                                 contact.stiffness_ratio);
+    return {{particles.density},
+            {particle_pair},
+            std::vector<PairMaterial>(n_walls, wall_pair)};
   }
 } // namespace graupel

@@ -166,8 +166,8 @@ namespace graupel
     const ParticleArrays &p = dem.particles();
     std::vector<Point<3>> mine, all;
     for (unsigned int i = 0; i < p.n_owned; ++i)
-      if (p.position[i][2] > z)
-        mine.push_back(p.position[i]);
+      if (p.body[i].position[2] > z)
+        mine.push_back(p.body[i].position);
     for (const auto &of_rank :
          dealii::Utilities::MPI::all_gather(dem.communicator(), mine))
       all.insert(all.end(), of_rank.begin(), of_rank.end());

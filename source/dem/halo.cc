@@ -2,6 +2,8 @@
 
 #include <deal.II/base/mpi.h>
 
+#include <cstring>
+
 namespace graupel
 {
   namespace
@@ -9,8 +11,9 @@ namespace graupel
     constexpr int identity_tag = 4101;
     constexpr int refresh_tag  = 4102;
 
-    // Position, velocity, spin, drift, spin drift.
-    constexpr unsigned int n_numbers = 15;
+    // A ghost's body, and its id and type, as doubles.
+    constexpr unsigned int n_numbers    = sizeof(Body) / sizeof(double);
+    constexpr unsigned int n_identities = 2;
   } // namespace
 
   Halo::Halo(const Cylinder &cylinder, const double reach, MPI_Comm communicator)
@@ -49,7 +52,7 @@ namespace graupel
     const unsigned int         n = n_bins[0] * n_bins[1] * n_bins[2];
     std::vector<unsigned char> mine(n, 0), all(n * n_ranks);
     for (unsigned int i = 0; i < particles.n_owned; ++i)
-      mine[bin(particles.position[i])] = 1;
+      mine[bin(particles.body[i].position)] = 1;
     const int ierr =
       MPI_Allgather(mine.data(), n, MPI_BYTE, all.data(), n, MPI_BYTE, communicator);
     AssertThrowMPI(ierr);
@@ -87,14 +90,14 @@ namespace graupel
         Neighbor neighbor;
         neighbor.rank = rank;
         for (unsigned int i = 0; i < particles.n_owned; ++i)
-          if (near[bin(particles.position[i])])
+          if (near[bin(particles.body[i].position)])
             neighbor.rows.push_back(i);
         neighbors.push_back(std::move(neighbor));
       }
   }
 
   void
-  Halo::exchange_identities(ParticleArrays &particles, const double density)
+  Halo::exchange_identities(ParticleArrays &particles)
   {
     std::vector<int> n_sent(n_ranks, 0), n_received(n_ranks, 0);
     for (const auto &neighbor : neighbors)
@@ -119,9 +122,9 @@ namespace graupel
         for (const unsigned int i : neighbor.rows)
           {
             neighbor.outgoing.push_back(particles.id[i]);
-            neighbor.outgoing.push_back(particles.radius[i]);
+            neighbor.outgoing.push_back(particles.type[i]);
           }
-        neighbor.incoming.resize(2 * neighbor.n_ghosts);
+        neighbor.incoming.resize(n_identities * neighbor.n_ghosts);
         ierr = MPI_Sendrecv(neighbor.outgoing.data(),
                             neighbor.outgoing.size(),
                             MPI_DOUBLE,
@@ -139,19 +142,20 @@ namespace graupel
           {
             const unsigned int row = neighbor.first_ghost + g;
             particles.id[row]      = static_cast<std::int64_t>(neighbor.incoming[2 * g]);
-            particles.set_sphere(row, neighbor.incoming[2 * g + 1], density);
+            particles.type[row] =
+              static_cast<unsigned char>(neighbor.incoming[2 * g + 1]);
           }
       }
   }
 
   void
-  Halo::rebuild(ParticleArrays &particles, const double density)
+  Halo::rebuild(ParticleArrays &particles)
   {
     if (n_ranks == 1)
       return;
     free_requests();
     choose_rows(particles);
-    exchange_identities(particles, density);
+    exchange_identities(particles);
     neighbors.erase(std::remove_if(neighbors.begin(),
                                    neighbors.end(),
                                    [](const Neighbor &neighbor) {
@@ -209,33 +213,19 @@ namespace graupel
       {
         double *out = neighbor.outgoing.data();
         for (const unsigned int i : neighbor.rows)
-          for (const dealii::Tensor<1, 3> *vector :
-               std::initializer_list<const dealii::Tensor<1, 3> *>{&p.position[i],
-                                                                   &p.velocity[i],
-                                                                   &p.spin[i],
-                                                                   &p.drift[i],
-                                                                   &p.spin_drift[i]})
-            for (unsigned int d = 0; d < 3; ++d)
-              *out++ = (*vector)[d];
+          {
+            std::memcpy(out, &p.body[i], sizeof(Body));
+            out += n_numbers;
+          }
       }
     int ierr = MPI_Startall(requests.size(), requests.data());
     AssertThrowMPI(ierr);
     ierr = MPI_Waitall(requests.size(), requests.data(), MPI_STATUSES_IGNORE);
     AssertThrowMPI(ierr);
     for (const auto &neighbor : neighbors)
-      {
-        const double *in = neighbor.incoming.data();
-        for (unsigned int i = neighbor.first_ghost;
-             i < neighbor.first_ghost + neighbor.n_ghosts;
-             ++i)
-          for (dealii::Tensor<1, 3> *vector :
-               std::initializer_list<dealii::Tensor<1, 3> *>{&p.position[i],
-                                                             &p.velocity[i],
-                                                             &p.spin[i],
-                                                             &p.drift[i],
-                                                             &p.spin_drift[i]})
-            for (unsigned int d = 0; d < 3; ++d)
-              (*vector)[d] = *in++;
-      }
+      if (neighbor.n_ghosts > 0)
+        std::memcpy(static_cast<void *>(&p.body[neighbor.first_ghost]),
+                    neighbor.incoming.data(),
+                    neighbor.n_ghosts * sizeof(Body));
   }
 } // namespace graupel

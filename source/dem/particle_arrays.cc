@@ -8,21 +8,11 @@ namespace graupel
   ParticleArrays::resize(const unsigned int n_rows)
   {
     id.resize(n_rows);
-    radius.resize(n_rows);
+    type.resize(n_rows);
+    body.resize(n_rows);
     mass.resize(n_rows);
-    inertia.resize(n_rows);
-    position.resize(n_rows);
-    for (auto *vectors :
-         {&velocity, &spin, &drift, &spin_drift, &force, &torque, &external_force})
-      vectors->resize(n_rows);
-  }
-
-  void
-  ParticleArrays::set_sphere(const unsigned int row, const double r, const double density)
-  {
-    radius[row]  = r;
-    mass[row]    = density * sphere_volume(r);
-    inertia[row] = 0.4 * mass[row] * r * r;
+    load.resize(n_rows);
+    external_force.resize(n_rows);
   }
 
   double

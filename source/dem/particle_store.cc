@@ -3,48 +3,100 @@
 
 #include <deal.II/grid/grid_tools.h>
 
+#include <boost/serialization/array.hpp>
+#include <boost/serialization/vector.hpp>
+
+#include <cstring>
+#include <limits>
 #include <sstream>
 
 namespace graupel
 {
   namespace
   {
-    // Where each quantity stands among the properties of a particle.
-    enum Property : unsigned int
+    namespace mpi = dealii::Utilities::MPI;
+
+    // A particle's label: who has the rest of it.
+    enum Label : unsigned int
     {
-      radius         = 0,
-      velocity       = 1,
-      spin           = 4,
-      force          = 7,
-      torque         = 10,
-      external_force = 13,
-      springs        = 16,
-      n_properties   = springs + SpringTable::n_numbers
+      holder        = 0,
+      holders_row   = 1,
+      n_label_parts = 2
     };
 
     // How far outside of the unit cell a point may lie by the rounding of the
     // mapping's inverse [-].
     constexpr double unit_cell_tolerance = 1e-7;
 
-    void
-    put(double *numbers, const dealii::Tensor<1, 3> &vector)
+    // How far a particle may go between two sorts of deal.II, in smallest edges.
+    constexpr double longest_way = 0.5;
+
+    // What a particle has beside its place in the handler, on its way to
+    // another rank.
+    struct Parcel
     {
+      unsigned char                   type;
+      double                          mass;
+      std::array<double, 16>          body;
+      std::array<std::int64_t, 8>     load;
+      std::array<double, 3>           external_force;
+      std::vector<SpringTable::Entry> springs;
+
+      template <class Archive>
+      void
+      serialize(Archive &archive, const unsigned int)
+      {
+        archive &type &mass &body &load &external_force &springs;
+      }
+    };
+
+    Parcel
+    pack(const ParticleArrays &p, const SpringTable &table, const unsigned int row)
+    {
+      Parcel parcel;
+      parcel.type = p.type[row];
+      parcel.mass = p.mass[row];
+      std::memcpy(parcel.body.data(), &p.body[row], sizeof(Body));
+      parcel.load = p.load[row].quanta;
       for (unsigned int d = 0; d < 3; ++d)
-        numbers[d] = vector[d];
+        parcel.external_force[d] = p.external_force[row][d];
+      parcel.springs.assign(table.begin(row), table.end(row));
+      return parcel;
     }
 
-    dealii::Tensor<1, 3>
-    get(const double *numbers)
+    void
+    unpack(const Parcel      &parcel,
+           ParticleArrays    &p,
+           SpringTable       &table,
+           const unsigned int row)
     {
-      return dealii::Tensor<1, 3>({numbers[0], numbers[1], numbers[2]});
+      p.type[row] = parcel.type;
+      p.mass[row] = parcel.mass;
+      std::memcpy(static_cast<void *>(&p.body[row]), parcel.body.data(), sizeof(Body));
+      p.load[row].quanta = parcel.load;
+      for (unsigned int d = 0; d < 3; ++d)
+        p.external_force[row][d] = parcel.external_force[d];
+      table.add_row(parcel.springs.begin(), parcel.springs.end());
+    }
+
+    void
+    copy_row(const ParticleArrays &from,
+             const unsigned int    old_row,
+             ParticleArrays       &to,
+             const unsigned int    row)
+    {
+      to.type[row]           = from.type[old_row];
+      to.mass[row]           = from.mass[old_row];
+      to.body[row]           = from.body[old_row];
+      to.load[row]           = from.load[old_row];
+      to.external_force[row] = from.external_force[old_row];
     }
   } // namespace
 
-  ParticleStore::ParticleStore(const CylinderMesh &mesh, const double density)
+  ParticleStore::ParticleStore(CylinderMesh &mesh)
     : mesh(mesh)
-    , density(density)
     , cache(mesh.triangulation(), mesh.mapping())
-    , handler(mesh.triangulation(), mesh.mapping(), n_properties)
+    , handler(mesh.triangulation(), mesh.mapping(), n_label_parts)
   {
     handler.signals.particle_lost.connect(
       [this](const dealii::Particles::ParticleIterator<3> &particle,
@@ -87,10 +139,9 @@ namespace graupel
     return location;
   }
 
-  std::vector<bool>
+  std::vector<unsigned int>
   ParticleStore::place(const std::vector<Traveller> &travellers)
   {
-    namespace mpi             = dealii::Utilities::MPI;
     const unsigned int me     = mpi::this_mpi_process(communicator());
     const unsigned int nobody = mpi::n_mpi_processes(communicator());
     const double       reach  = 0.5 * mesh.smallest_edge();
@@ -105,53 +156,186 @@ namespace graupel
       }
     mpi::min(claims, communicator(), owners);
 
-    std::vector<bool> placed(n);
     for (std::size_t k = 0; k < n; ++k)
-      {
-        placed[k] = owners[k] != nobody;
-        if (owners[k] == me)
-          handler.insert_particle(travellers[k].position,
-                                  locations[k].reference,
-                                  travellers[k].id,
-                                  locations[k].cell,
-                                  dealii::make_array_view(travellers[k].properties));
-      }
-    handler.update_cached_numbers();
-    return placed;
+      if (owners[k] == me)
+        handler.insert_particle(travellers[k].position,
+                                locations[k].reference,
+                                travellers[k].id,
+                                locations[k].cell,
+                                dealii::make_array_view(travellers[k].label));
+    return owners;
   }
 
   void
-  ParticleStore::insert(const std::vector<dealii::Point<3>> &positions,
-                        const double                         sphere_radius,
-                        const dealii::Tensor<1, 3>          &start_velocity)
+  ParticleStore::insert(const std::vector<NewParticle> &added, ParticleArrays &p)
   {
-    std::vector<double> properties(n_properties, 0.);
-    properties[radius] = sphere_radius;
-    put(&properties[velocity], start_velocity);
+    const unsigned int me     = mpi::this_mpi_process(communicator());
+    const unsigned int nobody = mpi::n_mpi_processes(communicator());
+    const double       reach  = 0.5 * mesh.smallest_edge();
 
-    std::vector<Traveller> travellers;
-    for (const auto &position : positions)
-      travellers.push_back({next_id++, position, properties});
-    const auto placed = place(travellers);
-    for (std::size_t k = 0; k < placed.size(); ++k)
-      if (!placed[k])
-        {
-          std::ostringstream text;
-          text << "no cell of the mesh holds the point (" << positions[k]
-               << ") m where a particle was to be inserted; it must lie in the cylinder";
-          throw DemError(text.str());
-        }
-    n_expected += positions.size();
-    check_count();
+    std::vector<Location>     locations;
+    std::vector<unsigned int> claims, owners(added.size());
+    for (const auto &particle : added)
+      {
+        locations.push_back(locate(particle.position, reach));
+        claims.push_back(locations.back().found ? me : nobody);
+      }
+    mpi::min(claims, communicator(), owners);
+
+    for (std::size_t k = 0; k < added.size(); ++k)
+      {
+        if (owners[k] == nobody)
+          {
+            std::ostringstream text;
+            text << "no cell of the mesh holds the point (" << added[k].position
+                 << ") m where a particle was to be inserted; it must lie in the "
+                    "cylinder";
+            throw DemError(text.str());
+          }
+        if (owners[k] == me)
+          {
+            const unsigned int row = p.n_owned++;
+            p.resize(p.n_owned);
+            p.id[row]            = next_id + k;
+            p.type[row]          = added[k].type;
+            p.body[row].position = added[k].position;
+            p.body[row].radius   = added[k].radius;
+            p.body[row].velocity = added[k].velocity;
+            p.body[row].spin     = added[k].spin;
+
+            std::vector<double> label{1. * me, 1. * row};
+            handler.insert_particle(added[k].position,
+                                    locations[k].reference,
+                                    next_id + k,
+                                    locations[k].cell,
+                                    dealii::make_array_view(label));
+          }
+      }
+    next_id += added.size();
+    n_expected += added.size();
   }
 
   void
-  ParticleStore::migrate()
+  ParticleStore::migrate(ParticleArrays                   &particles,
+                         SpringTable                      &table,
+                         const std::vector<std::uint32_t> &departed)
   {
     strays.clear();
+    set_places(particles, departed);
     handler.sort_particles_into_subdomains_and_cells();
     bring_home_strays();
     check_count();
+    collect(particles, table);
+  }
+
+  void
+  ParticleStore::repartition(ParticleArrays    &particles,
+                             SpringTable       &table,
+                             const unsigned int cell_weight,
+                             const unsigned int particle_weight)
+  {
+    migrate(particles, table, {});
+    handler.prepare_for_coarsening_and_refinement();
+    mesh.repartition([&](const CellIterator &cell) {
+      return cell_weight + particle_weight * handler.n_particles_in_cell(cell);
+    });
+    handler.unpack_after_coarsening_and_refinement();
+    check_count();
+    collect(particles, table);
+  }
+
+  void
+  ParticleStore::set_places(const ParticleArrays             &particles,
+                            const std::vector<std::uint32_t> &departed)
+  {
+    std::vector<unsigned char> gone(particles.n_owned, 0);
+    for (const auto row : departed)
+      gone[row] = 1;
+    n_expected -= mpi::sum(static_cast<unsigned int>(departed.size()), communicator());
+
+    // deal.II loses, without a signal, a particle that has crossed more than one
+    // layer of cells on its way to another rank: those that went far are strays.
+    const double reach = mpi::n_mpi_processes(communicator()) > 1
+                           ? longest_way * mesh.smallest_edge()
+                           : std::numeric_limits<double>::infinity();
+    std::vector<dealii::Particles::ParticleIterator<3>> to_remove;
+    for (auto particle = handler.begin(); particle != handler.end(); ++particle)
+      {
+        const auto label = particle->get_properties();
+        const auto row   = static_cast<unsigned int>(label[holders_row]);
+        const auto place = particles.body[row].position;
+        const bool far   = place.distance(particle->get_location()) > reach;
+        if (far && !gone[row])
+          strays.push_back(
+            {particle->get_id(), place, std::vector<double>(label.begin(), label.end())});
+        if (far || gone[row])
+          to_remove.push_back(particle);
+        else
+          particle->set_location(place);
+      }
+    // Collective, in that it counts anew.
+    handler.remove_particles(to_remove);
+  }
+
+  void
+  ParticleStore::collect(ParticleArrays &particles, SpringTable &table)
+  {
+    const unsigned int me = mpi::this_mpi_process(communicator());
+    const unsigned int n  = handler.n_locally_owned_particles();
+
+    // The rows of this rank in their new order, with the old rows; cells.
+    std::vector<std::pair<unsigned int, unsigned int>> source(n);
+    std::map<unsigned int, std::vector<unsigned int>>  wanted;
+    ParticleArrays                                     collected;
+    collected.n_owned = n;
+    collected.resize(n);
+    cells.clear();
+    unsigned int row = 0;
+    for (const auto &cell : mesh.triangulation().active_cell_iterators())
+      {
+        if (!cell->is_locally_owned() || handler.n_particles_in_cell(cell) == 0)
+          continue;
+        cells.push_back({cell, row, {}});
+        for (auto &particle : handler.particles_in_cell(cell))
+          {
+            const auto label  = particle.get_properties();
+            collected.id[row] = particle.get_id();
+            source[row]       = {static_cast<unsigned int>(label[holder]),
+                                 static_cast<unsigned int>(label[holders_row])};
+            if (source[row].first != me)
+              wanted[source[row].first].push_back(source[row].second);
+            label[holder]      = me;
+            label[holders_row] = row;
+            cells.back().reference_locations.push_back(particle.get_reference_location());
+            ++row;
+          }
+      }
+
+    std::map<unsigned int, std::vector<Parcel>> sent, received;
+    if (mpi::n_mpi_processes(communicator()) > 1)
+      {
+        for (const auto &[rank, rows] : mpi::some_to_some(communicator(), wanted))
+          for (const unsigned int old_row : rows)
+            sent[rank].push_back(pack(particles, table, old_row));
+        received = mpi::some_to_some(communicator(), sent);
+      }
+
+    SpringTable                          collected_table;
+    std::map<unsigned int, unsigned int> next;
+    collected_table.clear();
+    for (row = 0; row < n; ++row)
+      {
+        const auto [rank, old_row] = source[row];
+        if (rank != me)
+          unpack(received[rank][next[rank]++], collected, collected_table, row);
+        else
+          {
+            copy_row(particles, old_row, collected, row);
+            collected_table.add_row(table.begin(old_row), table.end(old_row));
+          }
+      }
+    particles = std::move(collected);
+    table     = std::move(collected_table);
   }
 
   void
@@ -159,16 +343,15 @@ namespace graupel
   {
     // deal.II gives up a particle that lies, within rounding, on the face of two
     // cells, or that went further than the cells next to its own.
-    namespace mpi = dealii::Utilities::MPI;
     if (mpi::sum(static_cast<unsigned int>(strays.size()), communicator()) == 0)
       return;
 
     std::vector<Traveller> all;
     for (const auto &of_rank : mpi::all_gather(communicator(), strays))
       all.insert(all.end(), of_rank.begin(), of_rank.end());
-    const auto placed = place(all);
+    const auto owners = place(all);
     for (std::size_t k = 0; k < all.size(); ++k)
-      if (!placed[k])
+      if (owners[k] == mpi::n_mpi_processes(communicator()))
         {
           std::ostringstream text;
           text << "particle " << all[k].id << " was lost at (" << all[k].position
@@ -179,9 +362,10 @@ namespace graupel
   }
 
   void
-  ParticleStore::check_count() const
+  ParticleStore::check_count()
   {
-    namespace mpi = dealii::Utilities::MPI;
+    // It forgets to count what was inserted or removed one by one.
+    handler.update_cached_numbers();
     if (mpi::sum(static_cast<unsigned int>(handler.n_locally_owned_particles()),
                  communicator()) == n_expected)
       return;
@@ -193,81 +377,14 @@ namespace graupel
     for (const auto &of_rank : mpi::all_gather(communicator(), ids))
       for (const auto id : of_rank)
         ++copies[id];
-    const auto culprit = std::find_if(copies.begin(),
-                                      copies.end(),
-                                      [](const unsigned int n) { return n != 1; }) -
-                         copies.begin();
-
-    std::string message;
-    for (const auto &[id, position] : last_places)
-      if (id == culprit)
-        {
-          std::ostringstream text;
-          text
-            << "particle " << id << " was " << (copies[id] == 0 ? "lost" : "doubled")
-            << " on its way to another rank; it came from (" << position
-            << ") m. It moved too far between two migrations: try a smaller substep or "
-               "larger cells";
-          message = text.str();
-        }
-    throw_together(message, communicator());
-    throw DemError("particles were lost: particle " + std::to_string(culprit) +
-                   " is missing");
-  }
-
-  void
-  ParticleStore::gather(ParticleArrays &p, SpringTable &table)
-  {
-    const unsigned int n = handler.n_locally_owned_particles();
-    p.n_owned            = n;
-    p.resize(n);
-    table.reset(n);
-    cells.clear();
-
-    unsigned int row = 0;
-    for (const auto &cell : mesh.triangulation().active_cell_iterators())
-      {
-        if (!cell->is_locally_owned() || handler.n_particles_in_cell(cell) == 0)
-          continue;
-        cells.push_back({cell, row, {}});
-        for (const auto &particle : handler.particles_in_cell(cell))
-          {
-            const auto properties = particle.get_properties();
-            p.id[row]             = particle.get_id();
-            p.position[row]       = particle.get_location();
-            p.velocity[row]       = get(&properties[velocity]);
-            p.spin[row]           = get(&properties[spin]);
-            p.force[row]          = get(&properties[force]);
-            p.torque[row]         = get(&properties[torque]);
-            p.external_force[row] = get(&properties[external_force]);
-            p.set_sphere(row, properties[radius], density);
-            table.unpack(row, &properties[springs]);
-            cells.back().reference_locations.push_back(particle.get_reference_location());
-            ++row;
-          }
-      }
-  }
-
-  void
-  ParticleStore::scatter(const ParticleArrays &p, const SpringTable &table)
-  {
-    last_places.clear();
-    unsigned int row = 0;
-    for (const auto &cell_rows : cells)
-      for (auto &particle : handler.particles_in_cell(cell_rows.cell))
-        {
-          const auto properties = particle.get_properties();
-          last_places.emplace_back(p.id[row], particle.get_location());
-          particle.set_location(p.position[row]);
-          properties[radius] = p.radius[row];
-          put(&properties[velocity], p.velocity[row]);
-          put(&properties[spin], p.spin[row]);
-          put(&properties[force], p.force[row]);
-          put(&properties[torque], p.torque[row]);
-          put(&properties[external_force], p.external_force[row]);
-          table.pack(row, &properties[springs]);
-          ++row;
-        }
+    const auto n_lost    = std::count(copies.begin(), copies.end(), 0u);
+    const auto n_doubled = std::count_if(
+      copies.begin(), copies.end(), [](const unsigned int n) { return n > 1; });
+    throw DemError("particles were lost or doubled on their way between ranks: of " +
+                   std::to_string(next_id) + " ever inserted " + std::to_string(n_lost) +
+                   " are missing and " + std::to_string(n_doubled) +
+                   " are double, where " + std::to_string(n_expected) +
+                   " should be in the vessel");
   }
 
   void

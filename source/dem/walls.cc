@@ -5,8 +5,8 @@ namespace graupel
   std::vector<Wall>
   vessel_walls(const Cylinder &cylinder)
   {
-    const dealii::Point<3>     bottom(0., 0., 0.), top(0., 0., cylinder.height);
-    const dealii::Tensor<1, 3> up({0., 0., 1.});
+    const Triple<double> bottom, top{0., 0., cylinder.height};
+    const Triple<double> up{0., 0., 1.};
 
     std::vector<Wall> walls(3);
     walls[lateral_wall] = {"wall", TubeWall{cylinder.diameter / 2.}};

@@ -110,6 +110,21 @@ namespace graupel
     forest.refine_global(disc.refinements);
   }
 
+  void
+  CylinderMesh::repartition(
+    const std::function<unsigned int(
+      const dealii::parallel::distributed::Triangulation<3>::active_cell_iterator &)>
+      &weight)
+  {
+    const auto connection = forest.signals.weight.connect(
+      [&](const dealii::Triangulation<3>::cell_iterator &cell,
+          const dealii::Triangulation<3>::CellStatus) {
+        return weight(dealii::Triangulation<3>::active_cell_iterator(cell));
+      });
+    forest.repartition();
+    connection.disconnect();
+  }
+
   double
   CylinderMesh::smallest_edge() const
   {

@@ -132,7 +132,10 @@ namespace graupel
                       parameters.cylinder.height};
     progress.say(describe_bed(summary.bed, dem));
     const CostSheet::Scope timing(summary.costs, CostSheet::output);
-    files.add_particles(time, dem.particles());
+    files.add_particles(time, dem);
+    files.write_bed(bed_profiles(dem, bed.height, parameters.simulated_diameter()));
+    if (parameters.output.force_chains)
+      files.add_contacts(time, dem);
   }
 
   void
@@ -235,7 +238,7 @@ namespace graupel
       return;
     const CostSheet::Scope timing(summary.costs, CostSheet::output);
     files.add_fields(time, nodes, exchange.medium(), fluid);
-    files.add_particles(time, dem.particles());
+    files.add_particles(time, dem);
     next_output = time + parameters.output.interval;
   }
 
@@ -294,7 +297,9 @@ namespace graupel
     files.write_radial(number, radial, parameters.cylinder.diameter / 2.);
     files.write_mid_plane(number, mid_plane(fields, parameters.output.midplane_points));
     files.add_fields(time, nodes, exchange.medium(), fluid);
-    files.add_particles(time, dem.particles());
+    files.add_particles(time, dem);
+    if (parameters.output.force_chains)
+      files.add_contacts(time, dem);
   }
 
   void

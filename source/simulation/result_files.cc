@@ -1,4 +1,5 @@
 #include <graupel/base/parameters.h>
+#include <graupel/simulation/contact_output.h>
 #include <graupel/simulation/particle_output.h>
 #include <graupel/simulation/result_files.h>
 
@@ -19,7 +20,8 @@ namespace graupel
     // Everything that a run writes, so that a new one can take it away first.
     const std::regex own_files("(parameters\\.prm|log\\.txt|summary\\.json|cases\\.csv|"
                                "monitors\\.csv|(profiles|radial|midplane)-[0-9]+\\.csv|"
-                               "(solution|particles)\\.pvd|report\\.html)");
+                               "bed-(axial|radial|janssen|coordination|contacts)\\.csv|"
+                               "(solution|particles|contacts)\\.pvd|report\\.html)");
 
     // All ranks write into one file: a rank without particles would otherwise leave
     // a file without points, which ParaView complains about.
@@ -253,18 +255,32 @@ namespace graupel
   }
 
   void
-  ResultFiles::add_particles(const double time, const ParticleArrays &particles)
+  ResultFiles::add_particles(const double time, const Dem &dem)
   {
     particle_records.emplace_back(
       time,
-      "vtu/" +
-        ParticleOutput(particles).write_vtu_with_pvtu_record(directory + "/vtu/",
-                                                             "particles",
-                                                             particle_records.size(),
-                                                             communicator,
-                                                             counter_digits,
-                                                             one_file));
+      "vtu/" + ParticleOutput(dem).write_vtu_with_pvtu_record(directory + "/vtu/",
+                                                              "particles",
+                                                              particle_records.size(),
+                                                              communicator,
+                                                              counter_digits,
+                                                              one_file));
     write_records("particles.pvd", particle_records);
+  }
+
+  void
+  ResultFiles::add_contacts(const double time, const Dem &dem)
+  {
+    contact_records.emplace_back(time,
+                                 "vtu/" +
+                                   ContactOutput(dem.contact_states())
+                                     .write_vtu_with_pvtu_record(directory + "/vtu/",
+                                                                 "contacts",
+                                                                 contact_records.size(),
+                                                                 communicator,
+                                                                 counter_digits,
+                                                                 one_file));
+    write_records("contacts.pvd", contact_records);
   }
 
   void

@@ -90,6 +90,10 @@ namespace graupel
                       "Points across the vessel at which the mid-plane is sampled [-].");
     prm.add_parameter(
       "annuli", annuli, "Annuli of equal width in the radial profiles [-].");
+    prm.add_parameter("force chains",
+                      force_chains,
+                      "Whether the contacts are written for ParaView, after settling and at "
+                      "the end of each flow case.");
     prm.add_parameter(
       "report", report, "Whether report.html is made at the end of the run.");
     prm.leave_subsection();

@@ -225,7 +225,7 @@ TEST(Exchange, KeepsItsLedgerOnARandomPacking)
   const FluidProperties fluid;
   for (unsigned int row = 0; row < packing.dem.particles().n_owned; ++row)
     for (unsigned int i = 0; i < 3; ++i)
-      packing.dem.particles().velocity[row][i] =
+      packing.dem.particles().body[row].velocity[i] =
         0.01 * RandomPacking::noise(packing.dem.particles().id[row] + 0.1 * i);
   Exchange   exchange(3e-3, Drag({}, fluid, 1.6e-3, 2.), packing.nodes, packing.costs);
   FlowSolver flow({}, fluid.density, fluid.viscosity, packing.nodes, packing.costs);

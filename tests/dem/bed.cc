@@ -33,8 +33,8 @@ namespace
     add(const Point<3> &x)
     {
       particles.resize(++particles.n_owned);
-      particles.set_sphere(particles.n_owned - 1, d / 2., 2700.);
-      particles.position.back() = x;
+      particles.body.back().radius   = d / 2.;
+      particles.body.back().position = x;
     }
 
     static constexpr unsigned int n = 5, layers = 40;

@@ -5,7 +5,9 @@
 namespace
 {
   using namespace graupel;
-  using Vector = dealii::Tensor<1, 3>;
+  using Vector  = Triple<double>;
+  using Contact = graupel::Contact<double>;
+  using Springs = graupel::Springs<double>;
 
   constexpr double young = 1e7, poisson = 0.33, radius = 1e-3, mass = 1.2e-5;
 
@@ -24,7 +26,7 @@ namespace
   touching(const double overlap)
   {
     Contact contact;
-    contact.normal  = Vector({1., 0., 0.});
+    contact.normal  = Vector{1., 0., 0.};
     contact.overlap = overlap;
     contact.radius  = radius / 2.;
     contact.mass    = mass / 2.;
@@ -84,8 +86,8 @@ namespace
     const auto   action = contact_action<HertzMindlin, FreeRolling>(m, contact, springs);
     const double expected =
       4. / 3. * m.young * std::sqrt(radius / 2.) * std::pow(2e-5, 1.5);
-    EXPECT_NEAR(-action.force[0], expected, 1e-12 * expected);
-    EXPECT_EQ(action.force[1], 0.);
+    EXPECT_NEAR(-action.force.x, expected, 1e-12 * expected);
+    EXPECT_EQ(action.force.y, 0.);
     EXPECT_NEAR(hertz_overlap(expected, m.young, radius / 2.), 2e-5, 1e-15);
   }
 
@@ -95,12 +97,12 @@ namespace
   {
     const auto m       = material(1., 10., 0.);
     auto       contact = touching(2e-5);
-    contact.drift      = Vector({0., 0.01, 0.});
+    contact.drift      = Vector{0., 0.01, 0.};
     Springs      springs;
     const auto   action = contact_action<HertzMindlin, FreeRolling>(m, contact, springs);
     const double S_t    = 8. * m.shear * std::sqrt(radius / 2. * 2e-5);
-    EXPECT_NEAR(action.force[1], -S_t * 0.01 * contact.step, 1e-12 * S_t * 1e-8);
-    EXPECT_NEAR(springs.tangential[1], 1e-8, 1e-20);
+    EXPECT_NEAR(action.force.y, -S_t * 0.01 * contact.step, 1e-12 * S_t * 1e-8);
+    EXPECT_NEAR(springs.tangential.y, 1e-8, 1e-20);
   }
 
   // Coulomb: |F_t| never exceeds mu F_n, equals it in sliding, and on reversal
@@ -114,20 +116,20 @@ namespace
     const double S_t     = HertzMindlin::stiffness(m, contact).tangential;
     Springs      springs;
 
-    contact.drift  = Vector({0., 0.6, 0.8});
+    contact.drift  = Vector{0., 0.6, 0.8};
     double sliding = 0.;
     for (unsigned int k = 0; k < 200; ++k)
       {
         const auto action =
           contact_action<HertzMindlin, FreeRolling>(m, contact, springs);
-        sliding = std::hypot(action.force[1], action.force[2]);
+        sliding = std::hypot(action.force.y, action.force.z);
         EXPECT_LE(sliding, 0.3 * F_n * (1. + 1e-12));
       }
     EXPECT_NEAR(sliding, 0.3 * F_n, 1e-12 * F_n);
 
     contact.drift     = -1e-2 * contact.drift;
     const auto action = contact_action<HertzMindlin, FreeRolling>(m, contact, springs);
-    EXPECT_NEAR(std::hypot(action.force[1], action.force[2]),
+    EXPECT_NEAR(std::hypot(action.force.y, action.force.z),
                 0.3 * F_n - S_t * 0.01 * contact.step,
                 1e-10 * F_n);
   }
@@ -138,8 +140,8 @@ namespace
   {
     for (const double angle : {1e-6, 1e-3, 2.9e-3, 3.5e-3, 0.1, 1.})
       {
-        Vector       spring({0., 3e-6, 4e-6});
-        const Vector n({std::cos(angle), std::sin(angle), 0.});
+        Vector       spring{0., 3e-6, 4e-6};
+        const Vector n{std::cos(angle), std::sin(angle), 0.};
         turn_into_plane(spring, n);
         EXPECT_NEAR(spring.norm(), 5e-6, 5e-6 * 1e-14);
         EXPECT_NEAR(spring * n, 0., 5e-6 * 1e-14);
@@ -157,13 +159,13 @@ namespace
     const double limit   = 0.1 * radius / 2. * s.normal_force;
     Springs      springs;
 
-    contact.spin_drift = Vector({7., 2., 0.});
+    contact.spin_drift = Vector{7., 2., 0.};
     auto action        = contact_action<HertzMindlin, SpringRolling>(m, contact, springs);
-    EXPECT_NEAR(action.rolling_torque[1], -k_r * 2e-6, 1e-12 * limit);
-    EXPECT_EQ(action.rolling_torque[0], 0.);
+    EXPECT_NEAR(action.rolling_torque.y, -k_r * 2e-6, 1e-12 * limit);
+    EXPECT_EQ(action.rolling_torque.x, 0.);
     for (unsigned int k = 0; k < 100000; ++k)
       action = contact_action<HertzMindlin, SpringRolling>(m, contact, springs);
-    EXPECT_NEAR(action.rolling_torque[1], -limit, 1e-12 * limit);
+    EXPECT_NEAR(action.rolling_torque.y, -limit, 1e-12 * limit);
   }
 
   // Constant torque: mu_r R* F_n against the rolling when fast; and a sphere
@@ -174,22 +176,76 @@ namespace
     auto         contact = touching(2e-5);
     const double F_n     = HertzMindlin::stiffness(m, contact).normal_force;
     Springs      springs;
-    contact.spin_drift = Vector({0., 0., 1e4});
+    contact.spin_drift = Vector{0., 0., 1e4};
     const auto fast =
       contact_action<HertzMindlin, ConstantRollingTorque>(m, contact, springs);
-    EXPECT_NEAR(fast.rolling_torque[2], -0.1 * radius / 2. * F_n, 1e-12 * F_n * radius);
+    EXPECT_NEAR(fast.rolling_torque.z, -0.1 * radius / 2. * F_n, 1e-12 * F_n * radius);
 
     const double inertia = 0.4 * contact.mass * contact.radius * contact.radius;
     double       spin    = 1.;
     for (unsigned int k = 0; k < 200; ++k)
       {
-        contact.spin_drift = Vector({0., 0., spin});
+        contact.spin_drift = Vector{0., 0., spin};
         const auto action =
           contact_action<HertzMindlin, ConstantRollingTorque>(m, contact, springs);
-        spin += contact.step * action.rolling_torque[2] / inertia;
+        spin += contact.step * action.rolling_torque.z / inertia;
         EXPECT_GE(spin, 0.);
       }
     EXPECT_LE(spin, 1e-12);
+  }
+
+  // The law for several contacts at a time is the law for one. Limit: products
+  // and sums may be contracted differently here.
+  TEST(ContactLaws, LanesEqualScalars)
+  {
+    const auto              m = material(0.5, 0.3, 0.1);
+    graupel::Contact<Lanes> contacts;
+    graupel::Springs<Lanes> memories;
+    std::vector<Contact>    contact(n_lanes, touching(2e-5));
+    std::vector<Springs>    springs(n_lanes);
+    for (unsigned int l = 0; l < n_lanes; ++l)
+      {
+        contact[l].overlap       = 1e-5 * (l + 1.);
+        contact[l].velocity      = Vector{0.01 * l, -0.2, 0.1};
+        contact[l].drift         = Vector{0.02 * l, 0.3 * l, 0.1};
+        contact[l].spin_drift    = Vector{1., 20. * l, -3.};
+        springs[l].tangential    = Vector{1e-7, 2e-7 * l, -1e-7};
+        springs[l].rolling       = Vector{0., 1e-4 * l, 1e-4};
+        contacts.normal.x[l]     = 1.;
+        contacts.overlap[l]      = contact[l].overlap;
+        contacts.radius[l]       = contact[l].radius;
+        contacts.mass[l]         = contact[l].mass;
+        contacts.step[l]         = contact[l].step;
+        contacts.velocity.x[l]   = contact[l].velocity.x;
+        contacts.velocity.y[l]   = contact[l].velocity.y;
+        contacts.velocity.z[l]   = contact[l].velocity.z;
+        contacts.drift.x[l]      = contact[l].drift.x;
+        contacts.drift.y[l]      = contact[l].drift.y;
+        contacts.drift.z[l]      = contact[l].drift.z;
+        contacts.spin_drift.x[l] = contact[l].spin_drift.x;
+        contacts.spin_drift.y[l] = contact[l].spin_drift.y;
+        contacts.spin_drift.z[l] = contact[l].spin_drift.z;
+        memories.tangential.x[l] = springs[l].tangential.x;
+        memories.tangential.y[l] = springs[l].tangential.y;
+        memories.tangential.z[l] = springs[l].tangential.z;
+        memories.rolling.x[l]    = springs[l].rolling.x;
+        memories.rolling.y[l]    = springs[l].rolling.y;
+        memories.rolling.z[l]    = springs[l].rolling.z;
+      }
+    const auto actions =
+      contact_action<HertzMindlin, SpringRolling>(m, contacts, memories);
+    for (unsigned int l = 0; l < n_lanes; ++l)
+      {
+        const auto action =
+          contact_action<HertzMindlin, SpringRolling>(m, contact[l], springs[l]);
+        const double F = action.force.norm();
+        EXPECT_NEAR(actions.force.x[l], action.force.x, 1e-13 * F);
+        EXPECT_NEAR(actions.force.y[l], action.force.y, 1e-13 * F);
+        EXPECT_NEAR(
+          actions.rolling_torque.y[l], action.rolling_torque.y, 1e-13 * F * radius);
+        EXPECT_NEAR(memories.tangential.y[l], springs[l].tangential.y, 1e-18);
+        EXPECT_NEAR(memories.rolling.y[l], springs[l].rolling.y, 1e-15);
+      }
   }
 
   // pi R sqrt(rho/G) / (0.1631 nu + 0.8766) for glass-like numbers, by hand:

@@ -68,19 +68,21 @@ namespace
     column.dem.advance(std::floor(4e-4 / dt) * dt);
     for (unsigned int k = 0; k < 100 && column.dem.coordination_number() == 0.; ++k)
       column.dem.advance(dt);
-    const Vector  between = column.position(1) - column.position(0);
-    const Vector  n       = between / between.norm();
-    const Vector  u({0.02, 0., 1.});
-    const Contact contact{n, 2e-3 - between.norm(), 5e-4, 1., {}, {}, {}, 0.};
-    const double  S_t =
-      HertzMindlin::stiffness(column.dem.parameters().particle_pair(false), contact)
+    const Vector          between = column.position(1) - column.position(0);
+    const Vector          n       = between / between.norm();
+    const Vector          u({0.02, 0., 1.});
+    const Contact<double> contact{
+      triple(n), 2e-3 - between.norm(), 5e-4, 1., {}, {}, {}, 0.};
+    const double S_t =
+      HertzMindlin::stiffness(column.dem.parameters().materials(false, 0).between(0, 0),
+                              contact)
         .tangential;
-    const double expected = S_t * contact.overlap * in_plane(u, n).norm() / (u * n);
+    const double expected =
+      S_t * contact.overlap * in_plane(triple(u), triple(n)).norm() / (u * n);
     EXPECT_GT(contact.overlap, 0.);
     EXPECT_LE(contact.overlap, 0.99 * dt);
-    EXPECT_NEAR(in_plane(column.everywhere(0, &ParticleArrays::force), n).norm(),
-                expected,
-                1e-3 * expected);
+    EXPECT_NEAR(
+      in_plane(triple(column.force(0)), triple(n)).norm(), expected, 1e-3 * expected);
   }
 
   // Without damping the kinetic energy after an impact is that before. Limit
@@ -110,12 +112,12 @@ namespace
       Vector L;
       for (const int id : {0, 1})
         L += mass * cross_product_3d(Vector(column.position(id)), column.velocity(id)) +
-             inertia * column.everywhere(id, &ParticleArrays::spin);
+             inertia * column.spin(id);
       return L;
     };
     const Vector before = angular();
     column.dem.advance(3e-3);
-    EXPECT_GT(column.everywhere(0, &ParticleArrays::spin).norm(), 1.);
+    EXPECT_GT(column.spin(0).norm(), 1.);
     EXPECT_NEAR((angular() - before).norm() / before.norm(), 0., 1e-9);
     EXPECT_NEAR((column.velocity(0) + column.velocity(1) - Vector({0., 0.1, 0.})).norm(),
                 0.,

@@ -60,33 +60,45 @@ namespace graupel
     set_velocity(const std::int64_t id, const dealii::Tensor<1, 3> &velocity)
     {
       if (row(id) >= 0)
-        dem.particles().velocity[row(id)] = velocity;
+        dem.particles().body[row(id)].velocity = velocity;
     }
 
     /** A vector of one particle, on all ranks. */
+    template <class Get>
     dealii::Tensor<1, 3>
-    everywhere(const std::int64_t                id,
-               std::vector<dealii::Tensor<1, 3>> ParticleArrays::*what) const
+    everywhere(const std::int64_t id, const Get &get) const
     {
       dealii::Tensor<1, 3> value;
       if (row(id) >= 0)
-        value = (dem.particles().*what)[row(id)];
+        value = get(row(id));
       return dealii::Utilities::MPI::sum(value, dem.communicator());
     }
 
     dealii::Tensor<1, 3>
     velocity(const std::int64_t id) const
     {
-      return everywhere(id, &ParticleArrays::velocity);
+      return everywhere(id,
+                        [&](const int i) { return dem.particles().body[i].velocity; });
+    }
+
+    dealii::Tensor<1, 3>
+    spin(const std::int64_t id) const
+    {
+      return everywhere(id, [&](const int i) { return dem.particles().body[i].spin; });
+    }
+
+    dealii::Tensor<1, 3>
+    force(const std::int64_t id) const
+    {
+      return everywhere(id, [&](const int i) { return dem.contact_force(i); });
     }
 
     dealii::Point<3>
     position(const std::int64_t id) const
     {
-      dealii::Tensor<1, 3> value;
-      if (row(id) >= 0)
-        value = dem.particles().position[row(id)];
-      return dealii::Point<3>(dealii::Utilities::MPI::sum(value, dem.communicator()));
+      return dealii::Point<3>(everywhere(id, [&](const int i) {
+        return dealii::Tensor<1, 3>(dem.particles().body[i].position);
+      }));
     }
 
     /** Position, velocity, spin and force of every particle by id, on all ranks. */
@@ -96,11 +108,11 @@ namespace graupel
       std::map<std::int64_t, std::vector<double>> mine, all;
       const auto                                 &p = dem.particles();
       for (unsigned int i = 0; i < p.n_owned; ++i)
-        for (const dealii::Tensor<1, 3> &v : {dealii::Tensor<1, 3>(p.position[i]),
-                                              p.velocity[i],
-                                              p.spin[i],
-                                              p.force[i],
-                                              p.torque[i]})
+        for (const dealii::Tensor<1, 3> &v : {dealii::Tensor<1, 3>(p.body[i].position),
+                                              p.body[i].velocity,
+                                              p.body[i].spin,
+                                              dem.contact_force(i),
+                                              dem.contact_torque(i)})
           for (unsigned int d = 0; d < 3; ++d)
             mine[p.id[i]].push_back(v[d]);
       for (const auto &of_rank :

@@ -1,12 +1,14 @@
+#include <graupel/dem/contact_list.h>
 #include <graupel/dem/spring_table.h>
 #include <graupel/dem/walls.h>
 
 #include <gtest/gtest.h>
 
+#include <set>
+
 namespace
 {
   using namespace graupel;
-  using dealii::Point;
 
   Cylinder
   vessel()
@@ -22,19 +24,19 @@ namespace
     for (const double relative : {1e-3, 0.5, 0.99, 1., 1.01})
       for (double angle = 0.; angle < 6.2; angle += 0.3)
         {
-          const double   rho = relative * 0.0125;
-          const Point<3> x(rho * std::cos(angle), rho * std::sin(angle), 0.1);
-          const auto     g = walls[lateral_wall].at(x);
+          const double         rho = relative * 0.0125;
+          const Triple<double> x{rho * std::cos(angle), rho * std::sin(angle), 0.1};
+          const auto           g = walls[lateral_wall].at(x);
           EXPECT_NEAR(g.distance, 0.0125 - rho, 1e-16);
-          EXPECT_NEAR(g.normal[0], std::cos(angle), 1e-12);
-          EXPECT_NEAR(g.normal[1], std::sin(angle), 1e-12);
-          EXPECT_EQ(g.normal[2], 0.);
+          EXPECT_NEAR(g.normal.x, std::cos(angle), 1e-12);
+          EXPECT_NEAR(g.normal.y, std::sin(angle), 1e-12);
+          EXPECT_EQ(g.normal.z, 0.);
         }
   }
 
   TEST(Walls, TubeOnItsAxisHasSomeUnitNormal)
   {
-    const auto g = vessel_walls(vessel())[lateral_wall].at(Point<3>(0., 0., 0.05));
+    const auto g = vessel_walls(vessel())[lateral_wall].at(Triple<double>{0., 0., 0.05});
     EXPECT_NEAR(g.distance, 0.0125, 1e-16);
     EXPECT_NEAR(g.normal.norm(), 1., 1e-15);
   }
@@ -42,44 +44,64 @@ namespace
   // Bottom at z = 0 with normal down, top at z = height with normal up.
   TEST(Walls, BottomAndTop)
   {
-    const auto     walls = vessel_walls(vessel());
-    const Point<3> x(0.003, -0.002, 0.0012);
+    const auto           walls = vessel_walls(vessel());
+    const Triple<double> x{0.003, -0.002, 0.0012};
     EXPECT_NEAR(walls[bottom_wall].at(x).distance, 0.0012, 1e-16);
-    EXPECT_EQ(walls[bottom_wall].at(x).normal[2], -1.);
+    EXPECT_EQ(walls[bottom_wall].at(x).normal.z, -1.);
     EXPECT_NEAR(walls[top_wall].at(x).distance, 0.1678, 1e-15);
-    EXPECT_EQ(walls[top_wall].at(x).normal[2], 1.);
+    EXPECT_EQ(walls[top_wall].at(x).normal.z, 1.);
   }
 
-  // What goes into the slots comes out, through the packed form as well, bit
-  // for bit; ids of walls and of particle 0 included. A full row refuses.
-  TEST(SpringTable, KeepsAndRefuses)
+  // What is filled in by row in any order comes out by row.
+  TEST(SpringTable, SortsByRow)
   {
-    SpringTable table;
-    table.reset(2);
-    for (std::int64_t k = 0; k < 14; ++k)
-      EXPECT_TRUE(table.add(1,
-                            k,
-                            {dealii::Tensor<1, 3>({0.1 * k, 1. / 3., -1. * k}),
-                             dealii::Tensor<1, 3>({k + 0.7, 0., 1e-30})}));
-    EXPECT_TRUE(table.add(1, wall_id(lateral_wall), {}));
-    EXPECT_TRUE(table.add(1, wall_id(bottom_wall), {}));
-    EXPECT_FALSE(table.add(1, 99, {}));
-    EXPECT_EQ(table.n_particle_contacts(1), 14u);
-    EXPECT_EQ(table.n_particle_contacts(0), 0u);
+    SpringTable                                                    table;
+    const std::vector<std::pair<unsigned int, SpringTable::Entry>> entries{
+      {2, {7, {{1., 2., 3.}, {4., 5., 6.}}}},
+      {0, {wall_id(bottom_wall), {}}},
+      {2, {9, {{-1., 0., 0.}, {0., 0., 1e-30}}}}};
+    table.fill(4, [&](const auto &put) {
+      for (const auto &[row, entry] : entries)
+        put(row, entry);
+    });
+    EXPECT_EQ(table.n_rows(), 4u);
+    EXPECT_EQ(table.end(0) - table.begin(0), 1);
+    EXPECT_EQ(table.begin(0)->partner, wall_id(bottom_wall));
+    EXPECT_EQ(table.begin(1), table.end(1));
+    ASSERT_EQ(table.end(2) - table.begin(2), 2);
+    EXPECT_EQ(table.begin(2)[0].partner, 7);
+    EXPECT_EQ(table.begin(2)[0].springs.tangential.z, 3.);
+    EXPECT_EQ(table.begin(2)[1].springs.rolling.z, 1e-30);
+    EXPECT_EQ(table.begin(3), table.end(3));
+  }
 
-    std::vector<double> numbers(SpringTable::n_numbers);
-    table.pack(1, numbers.data());
-    SpringTable copy;
-    copy.reset(1);
-    copy.unpack(0, numbers.data());
-    for (std::int64_t k = 0; k < 14; ++k)
+  // Contacts without holes: whatever is removed, the others keep their springs.
+  TEST(ContactList, RemovesAndKeepsTheRest)
+  {
+    ContactList list;
+    for (unsigned int k = 0; k < 3 * n_lanes + 1; ++k)
+      list.add(k, 100 + k, {{1. * k, 0., 0.}, {0., 0., -1. * k}});
+    list.begin(77, 78);
+    EXPECT_EQ(list.first_fresh(), 3 * n_lanes + 1);
+    list.age();
+    list.remove(3 * n_lanes + 1);
+    std::set<unsigned int> left;
+    for (unsigned int k = 0; k < 3 * n_lanes + 1; ++k)
+      left.insert(k);
+    while (list.size() > 0)
       {
-        ASSERT_NE(copy.find(0, k), nullptr);
-        EXPECT_EQ(copy.find(0, k)->tangential, table.find(1, k)->tangential);
-        EXPECT_EQ(copy.find(0, k)->rolling, table.find(1, k)->rolling);
+        const unsigned int k = (list.size() * 7) % list.size();
+        left.erase(list.first(k));
+        list.remove(k);
+        ASSERT_EQ(list.size(), left.size());
+        EXPECT_EQ(list.blocks.size(), (list.size() + n_lanes - 1) / n_lanes);
+        for (std::size_t m = 0; m < list.size(); ++m)
+          {
+            EXPECT_EQ(left.count(list.first(m)), 1u);
+            EXPECT_EQ(list.second(m), 100 + list.first(m));
+            EXPECT_EQ(list.springs(m).tangential.x, list.first(m));
+            EXPECT_EQ(list.springs(m).rolling.z, -1. * list.first(m));
+          }
       }
-    EXPECT_NE(copy.find(0, wall_id(bottom_wall)), nullptr);
-    EXPECT_EQ(copy.find(0, wall_id(top_wall)), nullptr);
-    EXPECT_EQ(copy.find(0, 99), nullptr);
   }
 } // namespace

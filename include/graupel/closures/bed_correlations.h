@@ -71,6 +71,48 @@ namespace graupel
                                              const double                diameter,
                                              const std::vector<Channel> &channels,
                                              const double superficial_velocity);
+
+  /**
+   * Void fraction [-] of a random bed of equal spheres at the distance
+   * @p z = y / d from the wall of its vessel, over their diameter:
+   *
+   *   2.14 z^2 - 2.53 z + 1                                         z <= 0.637,
+   *   eps_b + 0.29 e^{-0.6 z} cos(2.3 pi (z - 0.16)) + 0.15 e^{-0.9 z}  beyond,
+   *
+   * with the void fraction @p bulk far from walls. The branches meet where
+   * bulk is about 0.36; else there is a jump. The coefficients are still to be
+   * compared with the printed paper.
+   * Source: de Klerk, AIChE J. 49 (2003) 2022, doi:10.1002/aic.690490812.
+   */
+  double de_klerk_void_fraction(const double z, const double bulk);
+
+  /**
+   * Mean void fraction [-] of a bed of equal spheres in a cylinder
+   * @p diameter_ratio = D / d times as wide, 1.5 to 50:
+   *
+   *   0.390 + 1.740 / (D/d + 1.140)^2,
+   *
+   * to 1.5 % on average.
+   * Source: Benyahia & O'Neill, Part. Sci. Technol. 23 (2005) 169,
+   * doi:10.1080/02726350590922242.
+   */
+  double benyahia_oneill_void_fraction(const double diameter_ratio);
+
+  /**
+   * Vertical stress [Pa] in a bed at @p depth [m] below its top in a cylinder of
+   * diameter D = @p diameter [m], which the wall helps to carry:
+   *
+   *   w D / (4 mu K) (1 - exp(-4 mu K depth / D)),
+   *
+   * with the weight of the bed per volume w = @p specific_weight [N/m^3], and
+   * the friction of the wall times the ratio of the stresses across and along
+   * the axis mu K = @p wall_friction [-]; w depth if that is 0.
+   * Source: Janssen, Z. Ver. Dtsch. Ing. 39 (1895) 1045.
+   */
+  double janssen_stress(const double specific_weight,
+                        const double diameter,
+                        const double wall_friction,
+                        const double depth);
 } // namespace graupel
 
 #endif

@@ -1,14 +1,19 @@
 #ifndef graupel_dem_contact_laws_h
 #define graupel_dem_contact_laws_h
 
-#include <deal.II/base/tensor.h>
+#include <graupel/dem/lanes.h>
+#include <graupel/dem/triple.h>
+
+#include <deal.II/base/numbers.h>
 
 #include <algorithm>
 #include <cmath>
 #include <variant>
 
 /**
- * Laws of contact as functions of numbers: no mesh, no lists, two bodies.
+ * Laws of contact as functions of numbers: no mesh, no lists, two bodies. They are
+ * templates over the type of a number: double, or Lanes of doubles for several
+ * contacts at a time.
  *
  * Signs: the normal n points from the first body to the second. Velocities are
  * those of the first relative to the second, so u.n > 0 while they approach.
@@ -33,6 +38,8 @@ namespace graupel
     double friction;
     /** Coefficient of rolling resistance mu_r [-]. */
     double rolling_resistance;
+    /** Work of adhesion w, twice the surface energy of equal bodies [J/m^2]. */
+    double adhesion = 0.;
   };
 
   /** Numbers of one kind of contact that do not change from pair to pair. */
@@ -54,6 +61,7 @@ namespace graupel
     /** See Surface. */
     double friction;
     double rolling_resistance;
+    double adhesion;
 
     PairMaterial(const Elasticity &first,
                  const Elasticity &second,
@@ -63,55 +71,61 @@ namespace graupel
   };
 
   /** Geometry and motion of two touching bodies. */
+  template <class Real>
   struct Contact
   {
     /** Unit normal from the first body to the second. */
-    dealii::Tensor<1, 3> normal;
-    /** Overlap delta > 0 [m]. */
-    double overlap;
+    Triple<Real> normal;
+    /** Overlap delta [m]; negative where adhesion holds separated bodies. */
+    Real overlap;
     /** R* = R_1 R_2 / (R_1 + R_2); for a wall the radius of the sphere [m]. */
-    double radius;
+    Real radius;
     /** m* = m_1 m_2 / (m_1 + m_2); for a wall the mass of the sphere [kg]. */
-    double mass;
+    Real mass;
     /** Relative velocity of the surfaces at the contact point [m/s]. */
-    dealii::Tensor<1, 3> velocity;
+    Triple<Real> velocity;
     /** The same, but the mean over the substep that led here [m/s]. */
-    dealii::Tensor<1, 3> drift;
+    Triple<Real> drift;
     /** Relative angular velocity, mean over the substep that led here [rad/s]. */
-    dealii::Tensor<1, 3> spin_drift;
+    Triple<Real> spin_drift;
     /** Length of that substep, or of its part in contact [s]. */
-    double step;
+    Real step;
   };
 
   /** The memory of a contact: what it carries from substep to substep. */
+  template <class Real>
   struct Springs
   {
     /** Tangential displacement [m]. */
-    dealii::Tensor<1, 3> tangential;
+    Triple<Real> tangential;
     /** Rolling angle [rad]. */
-    dealii::Tensor<1, 3> rolling;
+    Triple<Real> rolling;
   };
 
   /** What a contact does to the first body. */
+  template <class Real>
   struct ContactAction
   {
     /** Force [N]. */
-    dealii::Tensor<1, 3> force;
+    Triple<Real> force;
     /** Torque of the rolling resistance, without that of the force [N m]. */
-    dealii::Tensor<1, 3> rolling_torque;
+    Triple<Real> rolling_torque;
   };
 
   /** Stiffness and damping of a contact at its present overlap. */
+  template <class Real>
   struct Stiffness
   {
-    /** Elastic normal force [N]. */
-    double normal_force;
+    /** Elastic (and adhesive) normal force [N]. */
+    Real normal_force;
     /** Normal damping [N s/m]. */
-    double normal_damping;
+    Real normal_damping;
     /** Tangential stiffness [N/m]. */
-    double tangential;
+    Real tangential;
     /** Tangential damping [N s/m]. */
-    double tangential_damping;
+    Real tangential_damping;
+    /** What adhesion adds to the normal force in the limits of friction [N]. */
+    Real holding_force;
   };
 
   /**
@@ -126,18 +140,29 @@ namespace graupel
    */
   struct HertzMindlin
   {
-    static Stiffness
-    stiffness(const PairMaterial &pair, const Contact &contact)
+    /** Overlap below which a contact ends [m]. */
+    template <class Real>
+    static Real
+    release_overlap(const PairMaterial &, const Real &)
     {
-      const double a   = std::sqrt(contact.radius * contact.overlap);
-      const double S_n = 2. * pair.young * a;
-      const double S_t = 8. * pair.shear * a;
-      const double gamma =
-        2. * std::sqrt(5. / 6.) * pair.damping * std::sqrt(S_n * contact.mass);
+      return 0.;
+    }
+
+    template <class Real>
+    static Stiffness<Real>
+    stiffness(const PairMaterial &pair, const Contact<Real> &contact)
+    {
+      using std::sqrt;
+      const Real a   = sqrt(contact.radius * contact.overlap);
+      const Real S_n = 2. * pair.young * a;
+      const Real S_t = 8. * pair.shear * a;
+      const Real gamma =
+        2. * std::sqrt(5. / 6.) * pair.damping * sqrt(S_n * contact.mass);
       return {4. / 3. * pair.young * a * contact.overlap,
               gamma,
               S_t,
-              gamma * pair.mindlin_damping_ratio};
+              gamma * pair.mindlin_damping_ratio,
+              0.};
     }
   };
 
@@ -148,37 +173,136 @@ namespace graupel
    */
   struct LinearSpring
   {
-    static Stiffness
-    stiffness(const PairMaterial &pair, const Contact &contact)
+    template <class Real>
+    static Real
+    release_overlap(const PairMaterial &, const Real &)
     {
+      return 0.;
+    }
+
+    template <class Real>
+    static Stiffness<Real>
+    stiffness(const PairMaterial &pair, const Contact<Real> &contact)
+    {
+      using std::sqrt;
       const double k_n   = pair.normal_stiffness;
       const double k_t   = pair.stiffness_ratio * k_n;
-      const double gamma = 2. * pair.damping * std::sqrt(k_n * contact.mass);
-      return {k_n * contact.overlap, gamma, k_t, gamma * pair.linear_damping_ratio};
+      const Real   gamma = 2. * pair.damping * sqrt(k_n * contact.mass);
+      return {k_n * contact.overlap, gamma, k_t, gamma * pair.linear_damping_ratio, 0.};
+    }
+  };
+
+  /**
+   * Adhesion of soft spheres after Johnson, Kendall and Roberts: with the radius a
+   * of the contact area and the work of adhesion w,
+   *
+   *   delta = a^2/R* - sqrt(2 pi w a / E*),
+   *   F_n   = 4 E* a^3 / (3 R*) - sqrt(8 pi w E* a^3).
+   *
+   * A contact begins at delta = 0, with a force that attracts, and ends at
+   * delta = -3 a_c^2 / R*, a_c^3 = pi w R*^2 / (8 E*), where no a is left. The
+   * strongest pull is F_c = 3/2 pi w R*; friction resists up to mu (F_n + 2 F_c).
+   * Damping and tangential stiffness are those of HertzMindlin with this a.
+   * Without adhesion it is HertzMindlin.
+   * Sources: Johnson, Kendall, Roberts (1971), doi:10.1098/rspa.1971.0141;
+   * friction: Thornton, Yin (1991), doi:10.1016/0032-5910(91)80178-L.
+   */
+  struct Jkr
+  {
+    template <class Real>
+    static Real
+    release_overlap(const PairMaterial &pair, const Real &radius)
+    {
+      using std::cbrt;
+      using std::sqrt;
+      // 3 a_c^2 / R* in the only part that differs from pair to pair, R*^(1/3).
+      const double w   = dealii::numbers::PI * pair.adhesion / (8. * pair.young);
+      const double own = 3. * std::cbrt(w * w);
+      return -own * cube_root(radius);
+    }
+
+    /** Radius of the contact area [m], for an overlap above release_overlap(). */
+    template <class Real>
+    static Real
+    contact_radius(const PairMaterial &pair, const Contact<Real> &contact)
+    {
+      using std::max;
+      using std::sqrt;
+      // With s = sqrt(a): s^4/R - c s - delta = 0, convex, and Newton's method
+      // falls to the root from above; this start is above for any overlap.
+      const double c = std::sqrt(2. * dealii::numbers::PI * pair.adhesion / pair.young);
+      const Real   b = cube_root(contact.radius * c);
+      const Real   R = contact.radius;
+      const Real   above = max(contact.overlap, Real(0.));
+      Real         s     = sqrt(sqrt(R * above) + b * b);
+      for (unsigned int k = 0; k < n_newton_steps; ++k)
+        {
+          const Real cube  = s * s * s / R;
+          const Real slope = 4. * cube - c;
+          const Real move  = (s * cube - c * s - contact.overlap) / slope;
+          s -= select(slope > Real(0.), move, Real(0.));
+        }
+      return s * s;
+    }
+
+    template <class Real>
+    static Stiffness<Real>
+    stiffness(const PairMaterial &pair, const Contact<Real> &contact)
+    {
+      using std::sqrt;
+      const Real   a = contact_radius(pair, contact);
+      const double pull =
+        std::sqrt(8. * dealii::numbers::PI * pair.adhesion * pair.young);
+      const Real S_n = 2. * pair.young * a;
+      const Real gamma =
+        2. * std::sqrt(5. / 6.) * pair.damping * sqrt(S_n * contact.mass);
+      return {a * (4. / 3. * pair.young * a * a / contact.radius - pull * sqrt(a)),
+              gamma,
+              8. * pair.shear * a,
+              gamma * pair.mindlin_damping_ratio,
+              3. * dealii::numbers::PI * pair.adhesion * contact.radius};
+    }
+
+  private:
+    // From the start above, the error of the root is at rounding after these.
+    static constexpr unsigned int n_newton_steps = 12;
+
+    static double
+    cube_root(const double x)
+    {
+      return std::cbrt(x);
+    }
+
+    static Lanes
+    cube_root(const Lanes &x)
+    {
+      return Lanes([&](auto lane) { return std::cbrt(x[lane]); });
     }
   };
 
   /** Turns a spring into the plane normal to @p n and keeps its length. */
+  template <class Real>
   inline void
-  turn_into_plane(dealii::Tensor<1, 3> &spring, const dealii::Tensor<1, 3> &n)
+  turn_into_plane(Triple<Real> &spring, const Triple<Real> &n)
   {
-    const double out = spring * n;
-    if (out == 0.)
-      return;
+    using std::sqrt;
+    const Real out = spring * n;
     spring -= out * n;
-    const double left = spring.norm_square();
-    if (!(left > 0.))
-      return;
+    const Real left = spring.norm_square();
 
     // sqrt(1 + q) by its series where that is exact to rounding: the plane
     // turns little in a substep, and the loop over contacts is short of roots.
-    const double q = out * out / left;
-    spring *= q < 1e-5 ? 1. + q * (0.5 - 0.125 * q) : std::sqrt(1. + q);
+    const Real q      = select(left > Real(0.), out * out / left, Real(0.));
+    Real       length = 1. + q * (0.5 - 0.125 * q);
+    if (some(q >= Real(1e-5)))
+      length = select(q >= Real(1e-5), sqrt(1. + q), length);
+    spring *= length;
   }
 
   /** The part of a vector in the plane normal to @p n. */
-  inline dealii::Tensor<1, 3>
-  in_plane(const dealii::Tensor<1, 3> &vector, const dealii::Tensor<1, 3> &n)
+  template <class Real>
+  inline Triple<Real>
+  in_plane(const Triple<Real> &vector, const Triple<Real> &n)
   {
     return vector - (vector * n) * n;
   }
@@ -186,8 +310,13 @@ namespace graupel
   /** No resistance to rolling. */
   struct FreeRolling
   {
-    static dealii::Tensor<1, 3>
-    torque(const PairMaterial &, const Contact &, const double, const double, Springs &)
+    template <class Real>
+    static Triple<Real>
+    torque(const PairMaterial &,
+           const Contact<Real> &,
+           const Real &,
+           const Real &,
+           Springs<Real> &)
     {
       return {};
     }
@@ -206,20 +335,21 @@ namespace graupel
    */
   struct ConstantRollingTorque
   {
-    static dealii::Tensor<1, 3>
-    torque(const PairMaterial &pair,
-           const Contact      &contact,
-           const double        normal_force,
-           const double,
-           Springs &)
+    template <class Real>
+    static Triple<Real>
+    torque(const PairMaterial  &pair,
+           const Contact<Real> &contact,
+           const Real          &normal_force,
+           const Real &,
+           Springs<Real> &)
     {
-      const double limit = pair.rolling_resistance * contact.radius * normal_force;
-      if (!(limit > 0.))
-        return {};
-      const auto   w       = in_plane(contact.spin_drift, contact.normal);
-      const double inertia = 0.4 * contact.mass * contact.radius * contact.radius;
-      const double w_c     = 2. * limit * contact.step / inertia;
-      return (-limit / std::max(w.norm(), w_c)) * w;
+      using std::max;
+      const Real limit   = pair.rolling_resistance * contact.radius * normal_force;
+      const auto w       = in_plane(contact.spin_drift, contact.normal);
+      const Real inertia = 0.4 * contact.mass * contact.radius * contact.radius;
+      const Real w_c     = 2. * limit * contact.step / inertia;
+      const Real size    = max(w.norm(), w_c);
+      return select(size > Real(0.), -limit / size, Real(0.)) * w;
     }
   };
 
@@ -231,26 +361,24 @@ namespace graupel
    */
   struct SpringRolling
   {
-    static dealii::Tensor<1, 3>
-    torque(const PairMaterial &pair,
-           const Contact      &contact,
-           const double        normal_force,
-           const double        tangential_stiffness,
-           Springs            &springs)
+    template <class Real>
+    static Triple<Real>
+    torque(const PairMaterial  &pair,
+           const Contact<Real> &contact,
+           const Real          &normal_force,
+           const Real          &tangential_stiffness,
+           Springs<Real>       &springs)
     {
-      const double limit = pair.rolling_resistance * contact.radius * normal_force;
-      if (!(limit > 0.))
-        {
-          springs.rolling = dealii::Tensor<1, 3>();
-          return {};
-        }
-      const double k_r = tangential_stiffness * contact.radius * contact.radius;
+      using std::sqrt;
+      const Real limit = pair.rolling_resistance * contact.radius * normal_force;
+      const Real k_r   = tangential_stiffness * contact.radius * contact.radius;
       turn_into_plane(springs.rolling, contact.normal);
       springs.rolling += contact.step * in_plane(contact.spin_drift, contact.normal);
 
-      const double trial_square = k_r * k_r * springs.rolling.norm_square();
-      if (trial_square > limit * limit)
-        springs.rolling *= limit / std::sqrt(trial_square);
+      const Real trial_square = k_r * k_r * springs.rolling.norm_square();
+      const auto yielding     = trial_square > limit * limit;
+      if (some(yielding))
+        springs.rolling *= select(yielding, limit / sqrt(trial_square), Real(1.));
       return -k_r * springs.rolling;
     }
   };
@@ -264,29 +392,37 @@ namespace graupel
    * and the rolling limit are zero then. In sliding the spring is set to what
    * it alone must be for the Coulomb force, so history goes on through sliding.
    */
-  template <class NormalLaw, class RollingLaw>
-  [[gnu::always_inline]] inline ContactAction
-  contact_action(const PairMaterial &pair, const Contact &contact, Springs &springs)
+  template <class NormalLaw, class RollingLaw, class Real>
+  [[gnu::always_inline]] inline ContactAction<Real>
+  contact_action(const PairMaterial  &pair,
+                 const Contact<Real> &contact,
+                 Springs<Real>       &springs)
   {
-    const Stiffness stiffness = NormalLaw::stiffness(pair, contact);
-    const auto     &n         = contact.normal;
+    using std::max;
+    using std::sqrt;
+    const Stiffness<Real> stiffness = NormalLaw::stiffness(pair, contact);
+    const auto           &n         = contact.normal;
 
-    const double approach = contact.velocity * n;
-    const double F_n      = stiffness.normal_force + stiffness.normal_damping * approach;
-    const double pressing = std::max(F_n, 0.);
+    const Real approach = contact.velocity * n;
+    const Real F_n      = stiffness.normal_force + stiffness.normal_damping * approach;
+    const Real pressing = max(F_n + stiffness.holding_force, Real(0.));
 
     turn_into_plane(springs.tangential, n);
     springs.tangential += contact.step * in_plane(contact.drift, n);
 
-    dealii::Tensor<1, 3> F_t =
-      -stiffness.tangential * springs.tangential -
-      stiffness.tangential_damping * (contact.velocity - approach * n);
-    const double limit        = pair.friction * pressing;
-    const double trial_square = F_t.norm_square();
-    if (trial_square > limit * limit)
+    Triple<Real> F_t = -stiffness.tangential * springs.tangential -
+                       stiffness.tangential_damping * (contact.velocity - approach * n);
+    const Real limit        = pair.friction * pressing;
+    const Real trial_square = F_t.norm_square();
+    const auto sliding      = trial_square > limit * limit;
+    if (some(sliding))
       {
-        F_t *= limit / std::sqrt(trial_square);
-        springs.tangential = (-1. / stiffness.tangential) * F_t;
+        F_t *= select(sliding, limit / sqrt(trial_square), Real(1.));
+        const Real          compliance = -1. / stiffness.tangential;
+        const Triple<Real> &spring     = springs.tangential;
+        springs.tangential             = {select(sliding, compliance * F_t.x, spring.x),
+                                          select(sliding, compliance * F_t.y, spring.y),
+                                          select(sliding, compliance * F_t.z, spring.z)};
       }
 
     return {F_t - F_n * n,
@@ -294,7 +430,7 @@ namespace graupel
   }
 
   /** The choice of laws, dispatched once a sweep over all contacts. */
-  using NormalLaws  = std::variant<HertzMindlin, LinearSpring>;
+  using NormalLaws  = std::variant<HertzMindlin, LinearSpring, Jkr>;
   using RollingLaws = std::variant<FreeRolling, ConstantRollingTorque, SpringRolling>;
 
   /**

@@ -1,6 +1,8 @@
 #ifndef graupel_dem_contact_sweep_h
 #define graupel_dem_contact_sweep_h
 
+#include <graupel/dem/contact_list.h>
+#include <graupel/dem/materials.h>
 #include <graupel/dem/particle_arrays.h>
 #include <graupel/dem/spring_table.h>
 #include <graupel/dem/verlet_list.h>
@@ -11,21 +13,66 @@
 
 namespace graupel
 {
-  /** The materials in force: between particles, and of particles with walls. */
-  struct Materials
+  /** The units in which forces, torques and loads of walls are counted. */
+  struct ForceQuanta
   {
-    PairMaterial particles;
-    PairMaterial walls;
+    /** @p reference_force: see ContactSweep. */
+    ForceQuanta(const double reference_force, const double reference_radius)
+      : force(reference_force * 0x1p-50)
+      , torque(force * reference_radius)
+      // Loads are summed over many sweeps and whole beds: more room, coarser.
+      , wall(reference_force * 0x1p-36)
+    {
+    }
+
+    /** Quantum of a force [N]. */
+    double force;
+    /** Quantum of a torque [N m]. */
+    double torque;
+    /** Quantum of a wall's load [N]. */
+    double wall;
+
+    dealii::Tensor<1, 3>
+    force_of(const Load &load) const
+    {
+      return dealii::Tensor<1, 3>({force * static_cast<double>(load.quanta[0]),
+                                   force * static_cast<double>(load.quanta[1]),
+                                   force * static_cast<double>(load.quanta[2])});
+    }
+
+    dealii::Tensor<1, 3>
+    torque_of(const Load &load) const
+    {
+      return dealii::Tensor<1, 3>({torque * static_cast<double>(load.quanta[3]),
+                                   torque * static_cast<double>(load.quanta[4]),
+                                   torque * static_cast<double>(load.quanta[5])});
+    }
+  };
+
+  /** One contact, for output. */
+  struct ContactState
+  {
+    /** Ids; the second is a negative wall_id() for a wall. */
+    std::int64_t first;
+    std::int64_t second;
+    /** Centers of the particles; the second is the contact point for a wall [m]. */
+    dealii::Point<3> first_center, second_center;
+    /** Overlap [m]. */
+    double overlap;
+    /** Unit normal from the first to the second. */
+    dealii::Tensor<1, 3> normal;
+    /** Force on the first [N]. */
+    dealii::Tensor<1, 3> force;
   };
 
   /**
-   * The hot loop: forces and torques of all contacts in a Verlet list, and the
-   * springs of those contacts.
+   * The hot loop: forces and torques of all contacts, and the springs of those
+   * contacts, as many contacts at a time as the processor has lanes.
    *
    * Forces are summed as whole numbers of a quantum, 2^-50 of a reference
    * force, so the sum does not depend on the order of the pairs; and a pair is
-   * always computed from its lower id to its higher, by one piece of machine
-   * code, on each rank that needs it. So the motion is the same bit by bit on
+   * always computed from its lower id to its higher, by the same operations in
+   * each lane, on each rank that needs it. So the motion is the same bit by bit on
    * any number of ranks, and whenever lists are rebuilt. The sums hold up to
    * 8192 reference forces; a contact beyond 500, or with an overlap of 30 % of
    * a radius or more, ends the sweep as a failure().
@@ -38,39 +85,51 @@ namespace graupel
 
     /**
      * @p reference_force: size of a large contact force, that of an overlap of
-     * 10 % of the radius [N]; @p reference_radius: of a particle [m].
+     * 10 % of the radius of the largest particle [N]; @p reference_radius: its
+     * radius [m].
      */
-    ContactSweep(const NormalLaws        &normal_law,
-                 const RollingLaws       &rolling_law,
-                 const std::vector<Wall> &walls,
-                 const double             reference_force,
-                 const double             reference_radius);
+    ContactSweep(const NormalLaws  &normal_law,
+                 const RollingLaws &rolling_law,
+                 const unsigned int n_types,
+                 const unsigned int n_walls,
+                 const double       reference_force,
+                 const double       reference_radius);
 
-    /** Takes over a new list, with the springs of its contacts from @p table. */
-    void load(const ParticleArrays &particles,
-              const VerletList     &list,
-              const SpringTable    &table);
+    /** Makes the contacts those of @p table; rows of ghosts must be there. */
+    void load(const ParticleArrays &particles, const SpringTable &table);
 
-    /**
-     * Writes the springs of all touching contacts to @p table, a row for each
-     * own particle. Returns a message if a particle has too many contacts.
-     */
-    std::string store(const ParticleArrays &particles,
-                      const VerletList     &list,
-                      SpringTable          &table) const;
+    /** Writes the springs of all contacts to @p table, a row for each own particle. */
+    void store(const ParticleArrays &particles, SpringTable &table) const;
 
     /**
-     * Computes all contacts: moves the springs through the substep @p dt [s]
-     * that led to the present positions, sets force and torque of the own rows,
-     * adds to the loads of the walls.
+     * Follows a new numbering of the ghosts: contacts of rows from @p n_owned on
+     * in @p old_ids go to the rows that have these ids now.
      */
-    void sweep(ParticleArrays   &particles,
-               const VerletList &list,
-               const Materials  &materials,
-               const double      dt);
+    void renumber_ghosts(const std::vector<std::int64_t> &old_ids,
+                         const unsigned int               old_n_owned,
+                         const ParticleArrays            &particles);
+
+    /** The contacts between particles as a table of rows. */
+    TouchingRows touching_rows(const unsigned int n_rows) const;
+
+    /** Takes over from a new list which rows are near walls. */
+    void watch_walls(const VerletList &list);
+
+    /**
+     * Computes all contacts: those of the last sweep and the pairs of @p list
+     * that touch now. Moves the springs through the substep @p dt [s] that led to
+     * the present positions, adds to the loads of the particles, which must be
+     * zero, and to those of the walls. Contacts that end go back to the list.
+     */
+    void sweep(ParticleArrays          &particles,
+               VerletList              &list,
+               const std::vector<Wall> &walls,
+               const Materials         &materials,
+               const double             dt);
 
     /** Why the last sweep failed, empty if it did not. */
-    std::string failure(const ParticleArrays &particles) const;
+    std::string failure(const ParticleArrays    &particles,
+                        const std::vector<Wall> &walls) const;
 
     bool
     failed() const
@@ -79,17 +138,27 @@ namespace graupel
     }
 
     /** Touching pairs of particles whose lower id is this rank's own. */
-    unsigned int n_touching_pairs(const ParticleArrays &particles,
-                                  const VerletList     &list) const;
+    std::size_t n_touching_pairs(const ParticleArrays &particles) const;
 
     /** Touching contacts of own particles with walls. */
-    unsigned int n_touching_walls() const;
+    std::size_t n_touching_walls() const;
 
-    /** Contacts evaluated as touching in the last sweep, on this rank. */
-    unsigned int
-    n_evaluated() const
+    /** Contacts on this rank. */
+    std::size_t n_contacts() const;
+
+    /**
+     * All contacts whose first particle is own, with their present forces; with
+     * @p of_ghosts also those of ghosts with own particles.
+     */
+    std::vector<ContactState> states(const ParticleArrays    &particles,
+                                     const std::vector<Wall> &walls,
+                                     const Materials         &materials,
+                                     const bool               of_ghosts = false) const;
+
+    const ForceQuanta &
+    quanta() const
     {
-      return evaluated;
+      return quantum;
     }
 
     /** Sets the sums of wall_load() to zero. */
@@ -102,60 +171,59 @@ namespace graupel
     std::vector<dealii::Tensor<1, 3>> wall_loads(MPI_Comm communicator) const;
 
   private:
-    using Quanta = std::array<std::int64_t, 6>;
-
-    // One contact's memory: its springs, and whether it touched last time.
-    struct Memory
-    {
-      Springs springs;
-      bool    touching = false;
-    };
+    void begin_pairs(const ParticleArrays &particles, VerletList &list);
+    void begin_walls(const ParticleArrays &particles, const std::vector<Wall> &walls);
 
     template <class NormalLaw, class RollingLaw>
-    void sweep_pairs(const ParticleArrays            &particles,
-                     const std::vector<NeighborPair> &pairs,
-                     const PairMaterial              &material,
-                     const double                     dt);
-
-    template <class NormalLaw, class RollingLaw>
-    void evaluate_pair(const ParticleArrays &particles,
-                       const NeighborPair    pair,
-                       const PairMaterial   &material,
-                       const double          dt,
-                       Memory               &memory);
+    void sweep_pairs(ContactList        &contacts,
+                     ParticleArrays     &particles,
+                     const PairMaterial &material,
+                     const double        first_density,
+                     const double        second_density,
+                     const double        dt);
 
     template <class NormalLaw, class RollingLaw, class Surface>
-    void evaluate_wall(const ParticleArrays &particles,
-                       const unsigned int    row,
-                       const unsigned int    wall,
-                       const Surface        &surface,
-                       const PairMaterial   &material,
-                       const double          dt,
-                       Memory               &memory);
+    void sweep_wall(ContactList        &contacts,
+                    ParticleArrays     &particles,
+                    const unsigned int  wall,
+                    const Surface      &surface,
+                    const PairMaterial &material,
+                    const double        density,
+                    const double        dt);
 
-    bool in_range(const ContactAction &action,
-                  const double         overlap,
-                  const double         radius) const;
-    void add(Quanta                     &sum,
-             const dealii::Tensor<1, 3> &force,
-             const dealii::Tensor<1, 3> &torque,
-             const double                sign) const;
-    void fail(const unsigned int row, const std::int64_t partner, const double overlap);
+    // Sets aside the contacts that ended, and the first that fails.
+    void examine(const LaneMask    &ended,
+                 const LaneMask    &broken,
+                 const Lanes       &overlap,
+                 const std::size_t  first_of_block,
+                 const ContactList &contacts,
+                 const bool         with_wall,
+                 const unsigned int wall);
 
-    NormalLaws        normal_law;
-    RollingLaws       rolling_law;
-    std::vector<Wall> walls;
-    double            largest_force;
-    double            force_quantum, torque_quantum, load_quantum;
-    double            inverse_force_quantum, inverse_torque_quantum, inverse_load_quantum;
+    ContactList &
+    pair_list(const ParticleArrays &particles, const NeighborPair pair)
+    {
+      return pair_lists[particles.type[pair.first] * n_types +
+                        particles.type[pair.second]];
+    }
 
-    std::vector<Memory>                      pair_memory;
-    std::vector<std::vector<Memory>>         wall_memory;
-    std::vector<Quanta>                      sums;
+    NormalLaws   normal_law;
+    RollingLaws  rolling_law;
+    unsigned int n_types;
+    unsigned int n_walls;
+    double       largest_force;
+    ForceQuanta  quantum;
+
+    // By types, first * n_types + second; and wall * n_types + type.
+    std::vector<ContactList> pair_lists;
+    std::vector<ContactList> wall_lists;
+    // For each wall the rows near it that do not touch it.
+    std::vector<std::vector<std::uint32_t>>  idle_rows;
     std::vector<std::array<std::int64_t, 3>> loads;
-    unsigned int                             evaluated = 0;
+    // Contacts of the list at work that have ended, in ascending order.
+    std::vector<std::uint32_t> ended;
 
-    unsigned int failed_row     = 0;
+    std::int64_t failed_first   = 0;
     std::int64_t failed_partner = 0;
     double       failed_overlap = 0.;
   };

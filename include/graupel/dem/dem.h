@@ -5,6 +5,7 @@
 #include <graupel/dem/contact_sweep.h>
 #include <graupel/dem/dem_parameters.h>
 #include <graupel/dem/halo.h>
+#include <graupel/dem/integration.h>
 #include <graupel/dem/particle_store.h>
 
 namespace graupel
@@ -23,11 +24,17 @@ namespace graupel
   {
   public:
     /** @p mesh and @p costs must outlive this object; @p parameters are checked. */
-    Dem(const DemParameters &parameters, const CylinderMesh &mesh, CostSheet &costs);
+    Dem(const DemParameters &parameters, CylinderMesh &mesh, CostSheet &costs);
 
     /**
-     * Adds simulated particles at @p positions [m], moving with @p velocity
-     * [m/s]. The same call on every rank, collective. Rows may change.
+     * Adds simulated particles. The same call on every rank, collective. Own rows
+     * stay, new ones come behind them.
+     */
+    void insert(const std::vector<NewParticle> &added);
+
+    /**
+     * Adds simulated particles of the first type at @p positions [m], moving with
+     * @p velocity [m/s].
      */
     void insert(const std::vector<dealii::Point<3>> &positions,
                 const dealii::Tensor<1, 3>          &velocity = dealii::Tensor<1, 3>());
@@ -47,17 +54,32 @@ namespace graupel
      */
     void synchronise();
 
+    /**
+     * If particles are spread unevenly over the ranks, divides the mesh among them
+     * anew, a cell counting as much as @p cell_share particles. Everything that
+     * knows the partition of the mesh is void then, and true is returned.
+     * Collective. Nothing of the motion changes by it.
+     */
+    bool balance(const double cell_share);
+
     /** Uses the friction of packing (true) or that of the flow; springs stay. */
     void use_packing_materials(const bool packing);
 
     /** Sets the friction between particles and that with walls [-]; springs stay. */
     void set_friction(const double particles, const double walls);
 
+    /** Sets the acceleration of gravity [m/s^2]. */
+    void
+    set_gravity(const dealii::Tensor<1, 3> &acceleration)
+    {
+      gravity = acceleration;
+    }
+
     /** Sets the acceleration of gravity, along -z [m/s^2]. */
     void
     set_gravity(const double acceleration)
     {
-      gravity = acceleration;
+      gravity = dealii::Tensor<1, 3>({0., 0., -acceleration});
     }
 
     /** Where the particles are in the mesh, as of the last synchronise(). */
@@ -106,6 +128,31 @@ namespace graupel
     n_global() const
     {
       return particle_store.n_global();
+    }
+
+    /** Contact force on an own row at the present time [N]. */
+    dealii::Tensor<1, 3>
+    contact_force(const unsigned int row) const
+    {
+      return contacts.quanta().force_of(arrays.load[row]);
+    }
+
+    /** Contact torque on an own row at the present time [N m]. */
+    dealii::Tensor<1, 3>
+    contact_torque(const unsigned int row) const
+    {
+      return contacts.quanta().torque_of(arrays.load[row]);
+    }
+
+    /**
+     * All contacts whose first particle is this rank's own, with their present
+     * forces; with @p of_ghosts also those of ghosts with own particles. Dampers
+     * see the present velocities of ghosts after synchronise() only.
+     */
+    std::vector<ContactState>
+    contact_states(const bool of_ghosts = false) const
+    {
+      return contacts.states(arrays, walls, materials, of_ghosts);
     }
 
     /** The longest substep in use [s]. */
@@ -157,40 +204,44 @@ namespace graupel
     }
 
   private:
-    void        drift(const double dt);
-    void        kick(const double dt);
-    void        substep_by(const double dt);
+    Integration integration(const double dt) const;
+    void        substep_by(const double dt, const bool first);
     void        update_neighbors();
     std::string first_problem() const;
-    void        rebuild_list();
-    void        save_springs();
+    void        list_neighbors();
+    void        exchange_ghosts();
+    void        store_springs();
+    void        restart_contacts();
+    bool        has_external_forces() const;
 
-    const DemParameters input;
-    const CylinderMesh &mesh;
-    CostSheet          &costs;
-    const double        smallest_edge;
-    const double        longest_substep;
-    const double        skin;
-    Materials           materials;
-    double              gravity;
+    const DemParameters  input;
+    CylinderMesh        &mesh;
+    CostSheet           &costs;
+    const double         longest_substep;
+    const double         skin;
+    const double         near_skin;
+    std::vector<Wall>    walls;
+    Materials            materials;
+    dealii::Tensor<1, 3> gravity;
 
-    ParticleStore           particle_store;
-    ParticleArrays          arrays;
-    SpringTable             spring_table;
-    const std::vector<Wall> walls;
-    Halo                    halo;
-    VerletList              list;
-    ContactSweep            contacts;
+    ParticleStore  particle_store;
+    ParticleArrays arrays;
+    SpringTable    spring_table;
+    Halo           halo;
+    VerletList     list;
+    ContactSweep   contacts;
 
     std::vector<dealii::Tensor<1, 3>> wall_loads;
 
-    // Positions at the last list, and how far any particle of any rank has
-    // moved since; and the sum of such moves since the last migration.
-    std::vector<dealii::Point<3>> listed_position;
-    double                        move_since_list      = 0.;
-    double                        move_since_migration = 0.;
-    bool                          list_is_valid        = false;
-    unsigned int                  list_builds          = 0;
+    bool   external_forces = false;
+    double total_mass = 0., total_volume = 0.;
+
+    // Bounds on how far any particle of any rank has gone since the list was
+    // made, and since its pairs were sorted into near and far ones.
+    double       moved_since_list = 0.;
+    double       moved_since_sort = 0.;
+    bool         list_is_valid    = false;
+    unsigned int list_builds      = 0;
   };
 } // namespace graupel
 

@@ -1,7 +1,7 @@
 #ifndef graupel_dem_dem_parameters_h
 #define graupel_dem_dem_parameters_h
 
-#include <graupel/dem/contact_laws.h>
+#include <graupel/dem/materials.h>
 #include <graupel/mesh/cylinder.h>
 
 #include <deal.II/base/parameter_handler.h>
@@ -101,11 +101,20 @@ namespace graupel
     /** Overlap that a static force makes between two particles [m]. */
     double overlap_under(const double force) const;
 
+    /** Radius of the largest simulated particle of any type [m]. */
+    double
+    largest_radius() const
+    {
+      return particles.simulated_radius();
+    }
+
     NormalLaws  normal_law() const;
     RollingLaws rolling_law() const;
-    /** Numbers of contacts, with the friction of packing or that of the flow. */
-    PairMaterial particle_pair(const bool packing) const;
-    PairMaterial wall_pair(const bool packing) const;
+    /**
+     * Materials of all types of particles and of @p n_walls walls, with the
+     * friction of packing or that of the flow.
+     */
+    Materials materials(const bool packing, const unsigned int n_walls) const;
 
     /** Substep over the characteristic time above which a run is refused [-]. */
     static constexpr double largest_time_fraction = 0.4;

@@ -31,11 +31,10 @@ namespace graupel
      * Decides anew who sends what, and replaces the ghost rows of @p particles,
      * complete with positions and velocities. Collective.
      */
-    void rebuild(ParticleArrays &particles, const double density);
+    void rebuild(ParticleArrays &particles);
 
     /**
-     * Brings position, velocity, spin, drift and spin drift of the ghost rows
-     * up to date. Collective among neighbours.
+     * Brings the bodies of the ghost rows up to date. Collective among neighbours.
      */
     void refresh(ParticleArrays &particles);
 
@@ -53,9 +52,9 @@ namespace graupel
     std::vector<unsigned char> occupied_bins(const ParticleArrays &particles) const;
     unsigned int               bin(const dealii::Point<3> &x) const;
     void                       choose_rows(const ParticleArrays &particles);
-    void exchange_identities(ParticleArrays &particles, const double density);
-    void start_requests();
-    void free_requests();
+    void                       exchange_identities(ParticleArrays &particles);
+    void                       start_requests();
+    void                       free_requests();
 
     MPI_Comm                    communicator;
     const unsigned int          n_ranks;

@@ -4,45 +4,64 @@
 #include <deal.II/base/point.h>
 #include <deal.II/base/tensor.h>
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
 namespace graupel
 {
   /**
+   * Place and motion of one particle: two cache lines, the record that the
+   * contact loop loads and that ranks send each other every substep.
+   */
+  struct alignas(64) Body
+  {
+    /** Center [m]. */
+    dealii::Point<3> position;
+    /** Radius of the simulated particle [m]. */
+    double radius = 0.;
+    /**
+     * Velocity [m/s]. While forces are computed: predicted to the end of the
+     * substep, for the dampers.
+     */
+    dealii::Tensor<1, 3> velocity;
+    /** Angular velocity [rad/s]; see velocity. */
+    dealii::Tensor<1, 3> spin;
+    /** Mean velocity over the current substep, by which springs move [m/s]. */
+    dealii::Tensor<1, 3> drift;
+    /** Mean angular velocity over the current substep [rad/s]. */
+    dealii::Tensor<1, 3> spin_drift;
+  };
+  static_assert(sizeof(Body) == 16 * sizeof(double));
+
+  /**
+   * Sum of the contact forces (0 to 2) and torques (3 to 5) on one particle at
+   * the current time, in the whole quanta of ForceQuanta; the rest is zero.
+   */
+  struct alignas(64) Load
+  {
+    std::array<std::int64_t, 8> quanta{};
+  };
+
+  /**
    * The particles of this rank as contiguous arrays: the workplace of the
-   * contact loop. Rows 0..n_owned-1 are the rank's own particles in the order
-   * of the ParticleStore (by cell); rows from n_owned on are copies of other
-   * ranks' particles near the border (ghosts), of which only id, radius, mass,
-   * position and the velocities are kept current.
+   * contact loop. Rows 0..n_owned-1 are the rank's own particles, after a
+   * migration in the order of the ParticleStore (by cell), newly inserted ones
+   * behind them; rows from n_owned on are copies of other ranks' particles near
+   * the border (ghosts), of which only id, type and body are kept current.
    */
   struct ParticleArrays
   {
     /** Global number of the particle, unique over all ranks, never reused. */
     std::vector<std::int64_t> id;
-    /** Radius of the simulated particle [m]. */
-    std::vector<double> radius;
-    /** Mass [kg]. */
+    /** Its type, an index into DemParameters::types. */
+    std::vector<unsigned char> type;
+    /** Place and motion. */
+    std::vector<Body> body;
+    /** Mass [kg]; own rows only. */
     std::vector<double> mass;
-    /** Moment of inertia of a solid sphere, 2/5 m r^2 [kg m^2]. */
-    std::vector<double> inertia;
-    /** Center [m]. */
-    std::vector<dealii::Point<3>> position;
-    /**
-     * Velocity [m/s]. While forces are computed: predicted to the end of the
-     * substep, for the dampers.
-     */
-    std::vector<dealii::Tensor<1, 3>> velocity;
-    /** Angular velocity [rad/s]; see velocity. */
-    std::vector<dealii::Tensor<1, 3>> spin;
-    /** Mean velocity over the current substep, by which springs move [m/s]. */
-    std::vector<dealii::Tensor<1, 3>> drift;
-    /** Mean angular velocity over the current substep [rad/s]. */
-    std::vector<dealii::Tensor<1, 3>> spin_drift;
-    /** Sum of the contact forces at the current time [N]; own rows only. */
-    std::vector<dealii::Tensor<1, 3>> force;
-    /** Sum of the contact torques at the current time [N m]; own rows only. */
-    std::vector<dealii::Tensor<1, 3>> torque;
+    /** Contact force and torque; own rows only. */
+    std::vector<Load> load;
     /**
      * Force from outside (drag, pressure gradient, but not gravity), constant
      * until changed; it travels with the particle [N]; own rows only.
@@ -60,9 +79,21 @@ namespace graupel
 
     /** Gives every array @p n_rows rows; new ones are zero. */
     void resize(const unsigned int n_rows);
+  };
 
-    /** Sets radius, mass and inertia of a sphere of @p density [kg/m^3]. */
-    void set_sphere(const unsigned int row, const double radius, const double density);
+  /** A particle to be put into the vessel. */
+  struct NewParticle
+  {
+    /** Center [m]. */
+    dealii::Point<3> position;
+    /** Radius of the simulated particle [m]. */
+    double radius = 0.;
+    /** Velocity [m/s]. */
+    dealii::Tensor<1, 3> velocity = {};
+    /** Angular velocity [rad/s]. */
+    dealii::Tensor<1, 3> spin = {};
+    /** Index into DemParameters::types. */
+    unsigned char type = 0;
   };
 
   /** Volume of a sphere [m^3]. */

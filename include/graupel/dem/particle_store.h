@@ -14,14 +14,15 @@
 namespace graupel
 {
   /**
-   * The owner of the particles between substeps: which cell and which rank each
-   * one is in. The only class of the program that names deal.II's
-   * ParticleHandler, in whose properties everything travels that a particle
-   * has: velocities, forces, external force, radius and the springs of its
-   * contacts.
+   * Which cell and which rank each particle is in, as of the last migration. The
+   * only class of the program that names deal.II's ParticleHandler.
    *
-   * While the DEM runs, the arrays are the truth and the store is old; scatter()
-   * makes it current, gather() the other way round.
+   * The arrays are the truth. The handler knows a particle's id and place, and as
+   * a label the rank and row that has the rest of it. A migration moves the
+   * handler's particles; then each rank fetches from the ranks named by the labels
+   * what it does not have: type, body, forces and the springs of the contacts. So
+   * whatever moves particles between ranks (migration, refinement, a new
+   * partition) takes everything along.
    */
   class ParticleStore
   {
@@ -32,36 +33,38 @@ namespace graupel
                          const unsigned int                   first_row,
                          const std::vector<dealii::Point<3>> &reference_locations)>;
 
-    /** @p density: of all particles [kg/m^3]. @p mesh must outlive the store. */
-    ParticleStore(const CylinderMesh &mesh, const double density);
+    /** @p mesh must outlive the store. */
+    explicit ParticleStore(CylinderMesh &mesh);
 
     /**
-     * Adds spheres at @p positions [m], with the next free ids, at rest but for
-     * @p velocity [m/s]. The same call on every rank, collective; each sphere
-     * goes to the lowest rank that owns a cell around its center. The store
-     * must be current, and the arrays be gathered again afterwards. Throws
-     * DemError for a point outside the mesh.
+     * Adds particles with the next free ids, behind the own rows of
+     * @p particles, which must hold no ghosts. The same call on every rank,
+     * collective; each goes to the lowest rank that owns a cell around its center.
+     * Mass is left to the caller. Throws DemError for a point outside the mesh.
      */
-    void insert(const std::vector<dealii::Point<3>> &positions,
-                const double                         radius,
-                const dealii::Tensor<1, 3>          &velocity);
+    void insert(const std::vector<NewParticle> &added, ParticleArrays &particles);
 
     /**
-     * Finds the cell and rank of every particle and moves it there. Collective.
-     * Throws DemError, with number, last place and reason, for a lost particle.
-     * What deal.II gives up (a particle exactly on a face; a long way within one
-     * migration) is searched for in all cells of all ranks.
+     * Finds the cell and rank of every particle and moves it there, with its row
+     * of @p table; removes first those that are listed in @p departed, own rows.
+     * Afterwards the arrays hold own rows only, those of one cell contiguous.
+     * Collective. Throws DemError, with number, last place and reason, for a lost
+     * particle. What deal.II gives up (a particle exactly on a face; a long way
+     * within one migration) is searched for in all cells of all ranks.
      */
-    void migrate();
+    void migrate(ParticleArrays                   &particles,
+                 SpringTable                      &table,
+                 const std::vector<std::uint32_t> &departed);
 
     /**
-     * Copies everything to @p particles (own rows only) and @p table; rows of
-     * one cell are contiguous. To be called after insert() and migrate().
+     * Divides the mesh among the ranks anew, so that the sum of @p cell_weight +
+     * @p particle_weight * particles is even, and moves the particles along, as
+     * migrate() does. Collective.
      */
-    void gather(ParticleArrays &particles, SpringTable &table);
-
-    /** Copies the own rows of @p particles and @p table back. */
-    void scatter(const ParticleArrays &particles, const SpringTable &table);
+    void repartition(ParticleArrays    &particles,
+                     SpringTable       &table,
+                     const unsigned int cell_weight,
+                     const unsigned int particle_weight);
 
     /**
      * Calls @p visit for each locally owned cell that holds particles, with the
@@ -91,28 +94,33 @@ namespace graupel
       bool             found = false;
     };
 
-    // A particle on its way into a cell, with all that it has.
+    // A particle on its way into a cell, with its label.
     struct Traveller
     {
       unsigned int        id;
       dealii::Point<3>    position;
-      std::vector<double> properties;
+      std::vector<double> label;
 
       template <class Archive>
       void
       serialize(Archive &archive, const unsigned int)
       {
-        archive &id &position &properties;
+        archive &id &position &label;
       }
     };
 
     // Looks in own cells within reach of the point.
     Location locate(const dealii::Point<3> &point, const double reach) const;
     // Puts each traveller, the same on all ranks, into a cell of the lowest rank
-    // that has one for it; tells which ones found a cell. Collective.
-    std::vector<bool> place(const std::vector<Traveller> &travellers);
-    void              bring_home_strays();
-    void              check_count() const;
+    // that has one for it; gives that rank, or the number of ranks for nowhere.
+    // Collective.
+    std::vector<unsigned int> place(const std::vector<Traveller> &travellers);
+
+    void set_places(const ParticleArrays             &particles,
+                    const std::vector<std::uint32_t> &departed);
+    void collect(ParticleArrays &particles, SpringTable &table);
+    void bring_home_strays();
+    void check_count();
 
     struct CellRows
     {
@@ -121,8 +129,7 @@ namespace graupel
       std::vector<dealii::Point<3>> reference_locations;
     };
 
-    const CylinderMesh                   &mesh;
-    const double                          density;
+    CylinderMesh                         &mesh;
     dealii::GridTools::Cache<3>           cache;
     dealii::Particles::ParticleHandler<3> handler;
     std::vector<CellRows>                 cells;
@@ -131,10 +138,8 @@ namespace graupel
     unsigned int n_expected = 0;
     unsigned int next_id    = 0;
 
-    // What deal.II gave up in the present migration, and where each particle was
-    // before, to name one that is lost.
-    std::vector<Traveller>                                 strays;
-    std::vector<std::pair<unsigned int, dealii::Point<3>>> last_places;
+    // What deal.II gave up in the present migration.
+    std::vector<Traveller> strays;
   };
 } // namespace graupel
 

@@ -3,7 +3,6 @@
 
 #include <graupel/dem/contact_laws.h>
 
-#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -11,46 +10,88 @@ namespace graupel
 {
   /**
    * The springs of all touching contacts of each own particle, by the id of the
-   * partner: the one format in which springs outlive a neighbour list, travel
-   * to another rank, and rest in a checkpoint. Both partners hold a copy, as it
-   * is in the contact's own orientation (from the lower id to the higher; from
-   * the particle to the wall), so either side alone can restore the contact.
+   * partner: the one format in which springs outlive the numbering of rows,
+   * travel to another rank, and rest in a checkpoint. Both partners hold a copy,
+   * as it is in the contact's own orientation (from the lower id to the higher;
+   * from the particle to the wall), so either side alone can restore the contact.
    */
   class SpringTable
   {
   public:
-    /** Contacts that one particle can have. */
-    static constexpr unsigned int n_slots = 16;
-    /** Numbers of one particle in pack() and unpack(). */
-    static constexpr unsigned int n_numbers = 7 * n_slots;
+    /** A contact of a particle. */
+    struct Entry
+    {
+      /** Id of the other particle, or a negative wall_id(). */
+      std::int64_t    partner;
+      Springs<double> springs;
 
-    /** Makes the table empty, with @p n_rows rows. */
-    void reset(const unsigned int n_rows);
+      template <class Archive>
+      void
+      serialize(Archive &archive, const unsigned int)
+      {
+        archive &partner &springs.tangential.x &springs.tangential.y &springs.tangential
+          .z &springs.rolling.x &springs.rolling.y &springs.rolling.z;
+      }
+    };
+
+    /** Makes the table empty. */
+    void
+    clear()
+    {
+      starts.assign(1, 0);
+      entries.clear();
+    }
+
+    /** Adds the next row. */
+    template <class Iterator>
+    void
+    add_row(const Iterator begin, const Iterator end)
+    {
+      entries.insert(entries.end(), begin, end);
+      starts.push_back(entries.size());
+    }
 
     /**
-     * Adds a contact to a row. Returns false, and adds nothing, if all slots
-     * are taken.
+     * Makes a table of @p n_rows rows from entries in any order: a counting
+     * sort. @p visit is called twice with a function (row, entry) to be called
+     * for each entry.
      */
-    bool add(const unsigned int row, const std::int64_t partner, const Springs &springs);
+    template <class Visit>
+    void
+    fill(const unsigned int n_rows, const Visit &visit)
+    {
+      starts.assign(n_rows + 1, 0);
+      visit([&](const unsigned int row, const Entry &) { ++starts[row + 1]; });
+      for (unsigned int row = 0; row < n_rows; ++row)
+        starts[row + 1] += starts[row];
+      entries.resize(starts.back());
+      std::vector<std::size_t> next(starts.begin(), starts.end() - 1);
+      visit([&](const unsigned int row, const Entry &entry) {
+        entries[next[row]++] = entry;
+      });
+    }
 
-    /** The springs of @p row with @p partner; nullptr if they do not touch. */
-    const Springs *find(const unsigned int row, const std::int64_t partner) const;
+    unsigned int
+    n_rows() const
+    {
+      return starts.size() - 1;
+    }
 
-    /** Contacts of a row with other particles. */
-    unsigned int n_particle_contacts(const unsigned int row) const;
+    const Entry *
+    begin(const unsigned int row) const
+    {
+      return entries.data() + starts[row];
+    }
 
-    /**
-     * Writes a row to n_numbers doubles. Slot: partner + 1 if a particle,
-     * partner if a wall, 0 if empty; then the two springs.
-     */
-    void pack(const unsigned int row, double *numbers) const;
-    /** Reads a row as pack() wrote it. */
-    void unpack(const unsigned int row, const double *numbers);
+    const Entry *
+    end(const unsigned int row) const
+    {
+      return entries.data() + starts[row + 1];
+    }
 
   private:
-    std::vector<unsigned char>                     used;
-    std::vector<std::array<std::int64_t, n_slots>> partners;
-    std::vector<std::array<Springs, n_slots>>      springs;
+    std::vector<std::size_t> starts{0};
+    std::vector<Entry>       entries;
   };
 } // namespace graupel
 

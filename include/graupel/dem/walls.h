@@ -1,10 +1,11 @@
 #ifndef graupel_dem_walls_h
 #define graupel_dem_walls_h
 
+#include <graupel/dem/lanes.h>
+#include <graupel/dem/triple.h>
 #include <graupel/mesh/cylinder.h>
 
 #include <deal.II/base/point.h>
-#include <deal.II/base/tensor.h>
 
 #include <cmath>
 #include <cstdint>
@@ -18,25 +19,30 @@ namespace graupel
    * Where a point lies relative to a wall. The overlap of a sphere is its
    * radius minus the distance of its center.
    */
+  template <class Real>
   struct WallGeometry
   {
     /** Distance of the point from the wall, negative beyond it [m]. */
-    double distance;
+    Real distance;
     /** Unit normal from the vessel's inside to the wall. */
-    dealii::Tensor<1, 3> normal;
+    Triple<Real> normal;
   };
 
   /** A plane; the particles are on the side that its normal points away from. */
   struct PlaneWall
   {
-    dealii::Point<3> point;
+    Triple<double> point;
     /** Unit normal, out of the vessel. */
-    dealii::Tensor<1, 3> normal;
+    Triple<double> normal;
+    /** Velocity with which it moves [m/s]. */
+    Triple<double> velocity = {};
 
-    WallGeometry
-    at(const dealii::Point<3> &x) const
+    template <class Real>
+    WallGeometry<Real>
+    at(const Triple<Real> &x) const
     {
-      return {(point - x) * normal, normal};
+      const Triple<Real> n{normal.x, normal.y, normal.z};
+      return {(point.x - x.x) * n.x + (point.y - x.y) * n.y + (point.z - x.z) * n.z, n};
     }
   };
 
@@ -44,16 +50,21 @@ namespace graupel
   struct TubeWall
   {
     /** Inner radius [m]. */
-    double radius;
+    double         radius;
+    Triple<double> velocity = {};
 
-    WallGeometry
-    at(const dealii::Point<3> &x) const
+    template <class Real>
+    WallGeometry<Real>
+    at(const Triple<Real> &x) const
     {
-      const double rho = std::sqrt(x[0] * x[0] + x[1] * x[1]);
+      using std::sqrt;
+      const Real rho = sqrt(x.x * x.x + x.y * x.y);
       // On the axis every direction is as good; one must be taken.
-      if (!(rho > 0.))
-        return {radius, dealii::Tensor<1, 3>({1., 0., 0.})};
-      return {radius - rho, dealii::Tensor<1, 3>({x[0] / rho, x[1] / rho, 0.})};
+      const auto off_axis = rho > Real(0.);
+      return {radius - rho,
+              {select(off_axis, x.x / rho, Real(1.)),
+               select(off_axis, x.y / rho, Real(0.)),
+               Real(0.)}};
     }
   };
 
@@ -64,11 +75,36 @@ namespace graupel
     std::string                       name;
     std::variant<PlaneWall, TubeWall> shape;
 
-    /** Slow, for tests and checks; the contact loop dispatches once a wall. */
-    WallGeometry
-    at(const dealii::Point<3> &x) const
+    /** Slow; the contact loop dispatches once a wall. */
+    WallGeometry<double>
+    at(const Triple<double> &x) const
     {
       return std::visit([&](const auto &surface) { return surface.at(x); }, shape);
+    }
+
+    /** Whether the wall is closer to @p x than @p distance [m]. */
+    bool
+    is_near(const dealii::Point<3> &x, const double distance) const
+    {
+      return std::visit(
+        [&](const auto &surface) { return surface.at(triple(x)).distance < distance; },
+        shape);
+    }
+
+    const Triple<double> &
+    velocity() const
+    {
+      return std::visit(
+        [](const auto &surface) -> const Triple<double> & { return surface.velocity; },
+        shape);
+    }
+
+    /** Moves the wall through @p dt [s]. */
+    void
+    move(const double dt)
+    {
+      if (auto *plane = std::get_if<PlaneWall>(&shape))
+        plane->point += dt * plane->velocity;
     }
   };
 

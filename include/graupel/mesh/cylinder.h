@@ -5,6 +5,8 @@
 #include <deal.II/distributed/tria.h>
 #include <deal.II/fe/mapping_q.h>
 
+#include <functional>
+
 namespace graupel
 {
   /** The vessel: a circular cylinder that stands on z = 0, its axis along z. */
@@ -80,6 +82,15 @@ namespace graupel
     {
       return forest.get_communicator();
     }
+
+    /**
+     * Divides the cells among the ranks anew, so that the sum of @p weight is
+     * even. Everything that knows the old partition is void. Collective.
+     */
+    void repartition(
+      const std::function<unsigned int(
+        const dealii::parallel::distributed::Triangulation<3>::active_cell_iterator &)>
+        &weight);
 
     /** The smallest distance between two vertices of one cell, over all ranks [m]. */
     double smallest_edge() const;

@@ -1,20 +1,21 @@
 #ifndef graupel_simulation_particle_output_h
 #define graupel_simulation_particle_output_h
 
-#include <graupel/dem/particle_arrays.h>
+#include <graupel/dem/dem.h>
 
 #include <deal.II/base/data_out_base.h>
 
 namespace graupel
 {
   /**
-   * The own particles of this rank as points for ParaView: id, diameter [m],
+   * The own particles of this rank as points for ParaView: id, type, diameter [m],
+   * number of contacts with particles and with walls [-], mean normal stress [Pa],
    * velocity [m/s], spin [rad/s], contact force [N], fluid force [N].
    */
   class ParticleOutput : public dealii::DataOutInterface<0, 3>
   {
   public:
-    explicit ParticleOutput(const ParticleArrays &particles);
+    explicit ParticleOutput(const Dem &dem);
 
   private:
     const std::vector<dealii::DataOutBase::Patch<0, 3>> &get_patches() const override;

@@ -1,7 +1,7 @@
 #ifndef graupel_simulation_result_files_h
 #define graupel_simulation_result_files_h
 
-#include <graupel/dem/dem.h>
+#include <graupel/dem/bed_profiles.h>
 #include <graupel/fluid/flow_solver.h>
 #include <graupel/simulation/case_result.h>
 #include <graupel/simulation/profiles.h>
@@ -55,6 +55,12 @@ namespace graupel
     void write_mid_plane(const unsigned int             number,
                          const std::vector<PlanePoint> &points);
 
+    /**
+     * bed-axial.csv, bed-radial.csv, bed-janssen.csv, bed-coordination.csv and
+     * bed-contacts.csv; nothing without a bed.
+     */
+    void write_bed(const BedProfiles &bed);
+
     /** Adds the fields at @p time [s] to solution.pvd. Collective. */
     void add_fields(const double      time,
                     const NodalSpace &nodes,
@@ -62,7 +68,10 @@ namespace graupel
                     const FlowSolver &flow);
 
     /** Adds the particles at @p time [s] to particles.pvd. Collective. */
-    void add_particles(const double time, const ParticleArrays &particles);
+    void add_particles(const double time, const Dem &dem);
+
+    /** Adds the contacts at @p time [s] to contacts.pvd. Collective. */
+    void add_contacts(const double time, const Dem &dem);
 
     /** A file of the directory. */
     std::string path(const std::string &name) const;
@@ -77,7 +86,7 @@ namespace graupel
     const MPI_Comm    communicator;
     const bool        is_writer;
     std::ofstream     log_stream, monitors;
-    Records           field_records, particle_records;
+    Records           field_records, particle_records, contact_records;
   };
 } // namespace graupel
 

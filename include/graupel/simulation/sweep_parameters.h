@@ -46,6 +46,8 @@ namespace graupel
     unsigned int midplane_points = 51;
     /** Annuli of the radial file [-]. */
     unsigned int annuli = 16;
+    /** Whether contacts.pvd is written, after settling and at the end of each case. */
+    bool force_chains = true;
     /** Whether report.html is made at the end. */
     bool report = true;
 

@@ -1,0 +1,85 @@
+#include <graupel/closures/bed_correlations.h>
+#include <graupel/simulation/result_files.h>
+
+namespace graupel
+{
+  namespace
+  {
+    // Mean void fraction far from the wall: beyond two diameters, or the inner half
+    // of the radius where the vessel is narrower than that.
+    double
+    core_void_fraction(const BedProfiles &bed)
+    {
+      const double radius = bed.cylinder.diameter / 2.;
+      const double core   = std::max(radius - 2. * bed.diameter, radius / 2.);
+      double       area = 0., empty = 0.;
+      for (const RadialShell &shell : bed.radial)
+        if (shell.middle() > radius - core)
+          {
+            const double weight =
+              (shell.to - shell.from) * (radius - shell.middle()); // / (2 pi)
+            area += weight;
+            empty += weight * shell.void_fraction;
+          }
+      return empty / area;
+    }
+
+    // The mu K of Janssen's theory that the wall's load as a whole asks for: shear
+    // over vertical stress, each integrated over the height of the bed.
+    double
+    mobilised_friction(const BedProfiles &bed)
+    {
+      double integral = 0.; // of the load over the height, trapezoidal [N m]
+      for (std::size_t k = 0; k + 1 < bed.loads.size(); ++k)
+        integral += 0.5 * (bed.loads[k].load + bed.loads[k + 1].load) *
+                    (bed.loads[k + 1].height - bed.loads[k].height);
+      return integral > 0.
+               ? bed.loads[0].wall_load * bed.cylinder.diameter / (4. * integral)
+               : 0.;
+    }
+  } // namespace
+
+  void
+  ResultFiles::write_bed(const BedProfiles &bed)
+  {
+    if (!is_writer || !(bed.height > 0.))
+      return;
+
+    auto axial = open("bed-axial.csv");
+    axial << "z,void_fraction\n";
+    for (const auto &[z, void_fraction] : bed.axial)
+      axial << z << ',' << void_fraction << '\n';
+
+    auto         radial = open("bed-radial.csv");
+    const double bulk   = core_void_fraction(bed);
+    radial << "wall_distance,void_fraction,de_klerk\n";
+    for (const RadialShell &shell : bed.radial)
+      radial << shell.middle() << ',' << shell.void_fraction << ','
+             << de_klerk_void_fraction(shell.middle() / bed.diameter, bulk) << '\n';
+
+    auto         janssen  = open("bed-janssen.csv");
+    const double area     = bed.cylinder.cross_section();
+    const double friction = mobilised_friction(bed);
+    janssen << "z,weight,load,wall_load,stress,janssen_stress,mobilised_friction\n";
+    for (const LoadLevel &level : bed.loads)
+      janssen << level.height << ',' << level.weight << ',' << level.load << ','
+              << level.wall_load << ',' << level.load / area << ','
+              << janssen_stress(bed.loads[0].weight / (area * bed.height),
+                                bed.cylinder.diameter,
+                                friction,
+                                std::max(0., bed.height - level.height))
+              << ',' << friction << '\n';
+
+    auto coordination = open("bed-coordination.csv");
+    coordination << "z,particles,coordination_number,wall_contacts\n";
+    for (const CoordinationSlab &slab : bed.coordination)
+      coordination << 0.5 * (slab.from + slab.to) << ',' << slab.n_particles << ','
+                   << slab.particles << ',' << slab.walls << '\n';
+
+    auto contacts = open("bed-contacts.csv");
+    contacts << "contacts,particles,particles_walls_counted\n";
+    for (std::size_t n = 0; n < bed.histogram_with_walls.size(); ++n)
+      contacts << n << ',' << (n < bed.histogram.size() ? bed.histogram[n] : 0) << ','
+               << bed.histogram_with_walls[n] << '\n';
+  }
+} // namespace graupel
