@@ -61,7 +61,7 @@ namespace graupel
 
     // A contact that began within the substep has moved only since then.
     template <class Real>
-    Real
+    [[gnu::always_inline]] inline Real
     step_in_contact(const Contact<Real> &contact, const double dt)
     {
       const Real approached = contact.drift * contact.normal * dt;
@@ -69,7 +69,7 @@ namespace graupel
         approached > contact.overlap, dt * contact.overlap / approached, Real(dt));
     }
 
-    WholeLanes
+    [[gnu::always_inline]] inline WholeLanes
     whole(const LaneMask &alive, const Lanes &quanta)
     {
       return std::experimental::static_simd_cast<WholeLanes>(

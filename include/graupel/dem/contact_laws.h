@@ -149,7 +149,7 @@ namespace graupel
     }
 
     template <class Real>
-    static Stiffness<Real>
+    [[gnu::always_inline]] static Stiffness<Real>
     stiffness(const PairMaterial &pair, const Contact<Real> &contact)
     {
       using std::sqrt;
@@ -181,7 +181,7 @@ namespace graupel
     }
 
     template <class Real>
-    static Stiffness<Real>
+    [[gnu::always_inline]] static Stiffness<Real>
     stiffness(const PairMaterial &pair, const Contact<Real> &contact)
     {
       using std::sqrt;
@@ -246,7 +246,7 @@ namespace graupel
     }
 
     template <class Real>
-    static Stiffness<Real>
+    [[gnu::always_inline]] static Stiffness<Real>
     stiffness(const PairMaterial &pair, const Contact<Real> &contact)
     {
       using std::sqrt;
@@ -282,7 +282,7 @@ namespace graupel
 
   /** Turns a spring into the plane normal to @p n and keeps its length. */
   template <class Real>
-  inline void
+  [[gnu::always_inline]] inline void
   turn_into_plane(Triple<Real> &spring, const Triple<Real> &n)
   {
     using std::sqrt;
@@ -301,7 +301,7 @@ namespace graupel
 
   /** The part of a vector in the plane normal to @p n. */
   template <class Real>
-  inline Triple<Real>
+  [[gnu::always_inline]] inline Triple<Real>
   in_plane(const Triple<Real> &vector, const Triple<Real> &n)
   {
     return vector - (vector * n) * n;
@@ -311,7 +311,7 @@ namespace graupel
   struct FreeRolling
   {
     template <class Real>
-    static Triple<Real>
+    [[gnu::always_inline]] static Triple<Real>
     torque(const PairMaterial &,
            const Contact<Real> &,
            const Real &,
@@ -336,7 +336,7 @@ namespace graupel
   struct ConstantRollingTorque
   {
     template <class Real>
-    static Triple<Real>
+    [[gnu::always_inline]] static Triple<Real>
     torque(const PairMaterial  &pair,
            const Contact<Real> &contact,
            const Real          &normal_force,
@@ -362,7 +362,7 @@ namespace graupel
   struct SpringRolling
   {
     template <class Real>
-    static Triple<Real>
+    [[gnu::always_inline]] static Triple<Real>
     torque(const PairMaterial  &pair,
            const Contact<Real> &contact,
            const Real          &normal_force,

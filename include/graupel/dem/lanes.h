@@ -21,13 +21,13 @@ namespace graupel
   constexpr unsigned int n_lanes = Lanes::size();
 
   /** @p a where @p condition holds, else @p b; both are computed. */
-  inline double
+  [[gnu::always_inline]] inline double
   select(const bool condition, const double a, const double b)
   {
     return condition ? a : b;
   }
 
-  inline Lanes
+  [[gnu::always_inline]] inline Lanes
   select(const LaneMask &condition, const Lanes &a, const Lanes &b)
   {
     Lanes result                                = b;
@@ -70,7 +70,7 @@ namespace graupel
     // Exchanges element l + h of register i with element l of register i + h, for
     // all i and l without the bit h; all bits in turn transpose the square.
     template <unsigned int h>
-    inline void
+    [[gnu::always_inline]] inline void
     exchange_across(Register (&square)[n_lanes])
     {
       WholeRegister low, high;
@@ -88,7 +88,7 @@ namespace graupel
           }
     }
 
-    inline void
+    [[gnu::always_inline]] inline void
     transpose(Register (&square)[n_lanes])
     {
       if constexpr (n_lanes >= 2)
@@ -107,7 +107,7 @@ namespace graupel
    * struct of doubles; n is a multiple of 8.
    */
   template <unsigned int n, class Record>
-  inline void
+  [[gnu::always_inline]] inline void
   load_records(const Record        *records,
                const std::uint32_t *rows,
                const unsigned int   first,
@@ -130,7 +130,7 @@ namespace graupel
 
   /** The reverse of load_records(); all rows must differ. */
   template <unsigned int n, class Record>
-  inline void
+  [[gnu::always_inline]] inline void
   store_records(Record              *records,
                 const std::uint32_t *rows,
                 const unsigned int   first,
@@ -156,7 +156,7 @@ namespace graupel
    * whole numbers each; rows may occur more than once.
    */
   template <class Record>
-  inline void
+  [[gnu::always_inline]] inline void
   add_to_records(Record *records, const std::uint32_t *rows, const WholeLanes *numbers)
   {
     static_assert(sizeof(Record) == 64);
