@@ -4,6 +4,7 @@
 
 #include <numeric>
 #include <sstream>
+#include <tuple>
 
 namespace graupel
 {
@@ -137,88 +138,100 @@ namespace graupel
   {
   }
 
-  void
-  ContactSweep::load(const ParticleArrays &particles, const SpringTable &table)
+  std::vector<LooseContact>
+  ContactSweep::contacts_of(const ParticleArrays             &particles,
+                            const std::vector<std::uint32_t> &rows) const
   {
-    for (auto *lists : {&pair_lists, &wall_lists})
-      for (auto &list : *lists)
-        list.clear();
+    std::vector<unsigned char> wanted(particles.n_rows(), 0);
+    for (const auto row : rows)
+      wanted[row] = 1;
+    std::vector<LooseContact> contacts;
+    for (const auto &list : pair_lists)
+      for (std::size_t k = 0; k < list.size(); ++k)
+        if (wanted[list.first(k)] || wanted[list.second(k)])
+          contacts.push_back(
+            {particles.id[list.first(k)], particles.id[list.second(k)], list.springs(k)});
+    for (unsigned int w = 0; w < wall_lists.size(); ++w)
+      for (std::size_t k = 0; k < wall_lists[w].size(); ++k)
+        if (wanted[wall_lists[w].first(k)])
+          contacts.push_back({particles.id[wall_lists[w].first(k)],
+                              wall_id(w / n_types),
+                              wall_lists[w].springs(k)});
+    return contacts;
+  }
 
-    std::int64_t largest_id = 0;
-    for (const auto id : particles.id)
-      largest_id = std::max(largest_id, id);
-    std::vector<std::uint32_t> row_of(largest_id + 1, -1);
-    for (std::uint32_t row = 0; row < particles.n_rows(); ++row)
-      row_of[particles.id[row]] = row;
-
-    for (std::uint32_t i = 0; i < particles.n_owned; ++i)
-      for (const auto *entry = table.begin(i); entry != table.end(i); ++entry)
+  std::vector<LooseContact>
+  ContactSweep::renumber(const std::vector<std::int64_t>  &old_ids,
+                         const std::vector<std::uint32_t> &new_row)
+  {
+    const auto number = [&](const std::uint32_t row) {
+      return row < new_row.size() ? new_row[row] : no_row;
+    };
+    std::vector<LooseContact> loose;
+    for (auto &list : pair_lists)
+      for (std::size_t k = list.size(); k-- > 0;)
         {
-          if (entry->partner < 0)
+          const auto i = number(list.first(k)), j = number(list.second(k));
+          if (i != no_row && j != no_row)
             {
-              const unsigned int wall = -1 - entry->partner;
-              wall_lists[wall * n_types + particles.type[i]].add(i, i, entry->springs);
+              list.first(k)  = i;
+              list.second(k) = j;
               continue;
             }
-          const std::uint32_t j = row_of[entry->partner];
-          // Both own: the copy of the lower id counts.
-          if (j < particles.n_owned && entry->partner < particles.id[i])
-            continue;
-          const NeighborPair pair =
-            particles.id[i] < entry->partner ? NeighborPair{i, j} : NeighborPair{j, i};
-          pair_list(particles, pair).add(pair.first, pair.second, entry->springs);
+          if (i != no_row || j != no_row)
+            loose.push_back(
+              {old_ids[list.first(k)], old_ids[list.second(k)], list.springs(k)});
+          list.remove(k);
         }
+    for (auto &list : wall_lists)
+      for (std::size_t k = list.size(); k-- > 0;)
+        if (number(list.first(k)) == no_row)
+          list.remove(k);
+        else
+          list.first(k) = list.second(k) = number(list.first(k));
+    return loose;
   }
 
   void
-  ContactSweep::store(const ParticleArrays &particles, SpringTable &table) const
+  ContactSweep::add(const ParticleArrays &particles, std::vector<LooseContact> contacts)
   {
-    table.fill(particles.n_owned, [&](const auto &put) {
-      const auto put_if_own = [&](const std::uint32_t    row,
-                                  const std::int64_t     partner,
-                                  const Springs<double> &springs) {
-        if (row < particles.n_owned)
-          put(row, SpringTable::Entry{partner, springs});
-      };
-      for (const auto &list : pair_lists)
-        for (std::size_t k = 0; k < list.size(); ++k)
-          {
-            const auto i = list.first(k), j = list.second(k);
-            put_if_own(i, particles.id[j], list.springs(k));
-            put_if_own(j, particles.id[i], list.springs(k));
-          }
-      for (unsigned int w = 0; w < wall_lists.size(); ++w)
-        for (std::size_t k = 0; k < wall_lists[w].size(); ++k)
-          put_if_own(
-            wall_lists[w].first(k), wall_id(w / n_types), wall_lists[w].springs(k));
-    });
-  }
-
-  void
-  ContactSweep::renumber_ghosts(const std::vector<std::int64_t> &old_ids,
-                                const unsigned int               old_n_owned,
-                                const ParticleArrays            &particles)
-  {
-    if (old_ids.size() == old_n_owned)
+    if (contacts.empty())
       return;
-    std::vector<std::pair<std::int64_t, std::uint32_t>> ghosts;
-    for (std::uint32_t row = particles.n_owned; row < particles.n_rows(); ++row)
-      ghosts.emplace_back(particles.id[row], row);
-    std::sort(ghosts.begin(), ghosts.end());
+    const auto key = [](const LooseContact &c) { return std::tie(c.first, c.second); };
+    std::sort(contacts.begin(), contacts.end(), [&](const auto &a, const auto &b) {
+      return key(a) < key(b);
+    });
+    contacts.erase(
+      std::unique(contacts.begin(),
+                  contacts.end(),
+                  [&](const auto &a, const auto &b) { return key(a) == key(b); }),
+      contacts.end());
 
-    std::vector<std::uint32_t> new_row(old_ids.size() - old_n_owned, -1);
-    for (std::size_t g = 0; g < new_row.size(); ++g)
+    std::vector<std::pair<std::int64_t, std::uint32_t>> rows;
+    for (std::uint32_t row = 0; row < particles.n_rows(); ++row)
+      rows.emplace_back(particles.id[row], row);
+    std::sort(rows.begin(), rows.end());
+    const auto row_of = [&](const std::int64_t id) {
+      const auto found =
+        std::lower_bound(rows.begin(), rows.end(), std::make_pair(id, 0u));
+      return found != rows.end() && found->first == id ? found->second : no_row;
+    };
+
+    for (const auto &contact : contacts)
       {
-        const auto found = std::lower_bound(
-          ghosts.begin(), ghosts.end(), std::make_pair(old_ids[old_n_owned + g], 0u));
-        if (found != ghosts.end() && found->first == old_ids[old_n_owned + g])
-          new_row[g] = found->second;
+        const auto i = row_of(contact.first);
+        if (contact.second < 0)
+          {
+            const unsigned int wall = -1 - contact.second;
+            wall_lists[wall * n_types + particles.type[i]].add(i, i, contact.springs);
+            continue;
+          }
+        const auto j = row_of(contact.second);
+        if (i == no_row || j == no_row ||
+            (i >= particles.n_owned && j >= particles.n_owned))
+          continue;
+        pair_list(particles, {i, j}).add(i, j, contact.springs);
       }
-    for (auto &list : pair_lists)
-      for (std::size_t k = 0; k < list.size(); ++k)
-        for (auto *row : {&list.first(k), &list.second(k)})
-          if (*row >= old_n_owned)
-            *row = new_row[*row - old_n_owned];
   }
 
   TouchingRows

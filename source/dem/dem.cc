@@ -3,6 +3,7 @@
 #include <graupel/dem/exact_sum.h>
 
 #include <limits>
+#include <numeric>
 
 namespace graupel
 {
@@ -17,6 +18,14 @@ namespace graupel
 
     // Ranks may differ by this much in their particles.
     constexpr double tolerated_imbalance = 0.05;
+
+    std::vector<std::uint32_t>
+    same_rows(const unsigned int n)
+    {
+      std::vector<std::uint32_t> rows(n);
+      std::iota(rows.begin(), rows.end(), 0u);
+      return rows;
+    }
 
     double
     kinetic_energy(const ParticleArrays &p, const unsigned int i)
@@ -80,8 +89,9 @@ namespace graupel
       }
     if (mpi::n_mpi_processes(communicator()) > 1)
       {
+        auto loose = contacts.renumber(old_ids, same_rows(old_n_owned));
         halo.rebuild(arrays);
-        contacts.renumber_ghosts(old_ids, old_n_owned, arrays);
+        contacts.add(arrays, std::move(loose));
       }
     list_is_valid = false;
   }
@@ -90,9 +100,8 @@ namespace graupel
   Dem::synchronise()
   {
     CostSheet::Scope scope(costs, CostSheet::neighbor);
-    store_springs();
-    particle_store.migrate(arrays, spring_table, {});
-    restart_contacts();
+    const auto       old_ids = arrays.id;
+    follow(old_ids, particle_store.migrate(arrays, contacts_of(), {}));
   }
 
   bool
@@ -106,29 +115,33 @@ namespace graupel
     const double mean  = mpi::sum(mine, communicator()) / n_ranks;
     if (most <= (1. + tolerated_imbalance) * mean)
       return false;
-    store_springs();
+    synchronise();
+    const auto             old_ids         = arrays.id;
     constexpr unsigned int particle_weight = 1000;
-    particle_store.repartition(
-      arrays,
-      spring_table,
-      std::max(1u, static_cast<unsigned int>(cell_share * particle_weight)),
-      particle_weight);
-    restart_contacts();
+    follow(old_ids,
+           particle_store.repartition(
+             arrays,
+             contacts_of(),
+             std::max(1u, static_cast<unsigned int>(cell_share * particle_weight)),
+             particle_weight));
     return true;
   }
 
-  void
-  Dem::store_springs()
+  ParticleStore::ContactsOf
+  Dem::contacts_of() const
   {
-    contacts.store(arrays, spring_table);
+    return [this](const std::vector<std::uint32_t> &rows) {
+      return contacts.contacts_of(arrays, rows);
+    };
   }
 
   void
-  Dem::restart_contacts()
+  Dem::follow(const std::vector<std::int64_t> &old_ids, ParticleStore::Moves moves)
   {
+    auto loose = contacts.renumber(old_ids, moves.new_row);
+    loose.insert(loose.end(), moves.arrived.begin(), moves.arrived.end());
     halo.rebuild(arrays);
-    contacts.load(arrays, spring_table);
-    spring_table.clear();
+    contacts.add(arrays, std::move(loose));
     list.clear();
     list_is_valid = false;
   }
@@ -266,11 +279,10 @@ namespace graupel
   {
     if (mpi::n_mpi_processes(communicator()) > 1)
       {
-        CostSheet::Scope   scope(costs, CostSheet::halo);
-        const auto         old_ids     = arrays.id;
-        const unsigned int old_n_owned = arrays.n_owned;
+        CostSheet::Scope scope(costs, CostSheet::halo);
+        auto             loose = contacts.renumber(arrays.id, same_rows(arrays.n_owned));
         halo.rebuild(arrays);
-        contacts.renumber_ghosts(old_ids, old_n_owned, arrays);
+        contacts.add(arrays, std::move(loose));
       }
     CostSheet::Scope scope(costs, CostSheet::neighbor);
     list.build(arrays, walls, contacts.touching_rows(arrays.n_rows()));

@@ -35,23 +35,36 @@ namespace graupel
     // another rank.
     struct Parcel
     {
-      unsigned char                   type;
-      double                          mass;
-      std::array<double, 16>          body;
-      std::array<std::int64_t, 8>     load;
-      std::array<double, 3>           external_force;
-      std::vector<SpringTable::Entry> springs;
+      unsigned char               type;
+      double                      mass;
+      std::array<double, 16>      body;
+      std::array<std::int64_t, 8> load;
+      std::array<double, 3>       external_force;
 
       template <class Archive>
       void
       serialize(Archive &archive, const unsigned int)
       {
-        archive &type &mass &body &load &external_force &springs;
+        archive &type &mass &body &load &external_force;
+      }
+    };
+
+    // All that one rank sends another.
+    struct Delivery
+    {
+      std::vector<Parcel>       parcels;
+      std::vector<LooseContact> contacts;
+
+      template <class Archive>
+      void
+      serialize(Archive &archive, const unsigned int)
+      {
+        archive &parcels &contacts;
       }
     };
 
     Parcel
-    pack(const ParticleArrays &p, const SpringTable &table, const unsigned int row)
+    pack(const ParticleArrays &p, const unsigned int row)
     {
       Parcel parcel;
       parcel.type = p.type[row];
@@ -60,15 +73,11 @@ namespace graupel
       parcel.load = p.load[row].quanta;
       for (unsigned int d = 0; d < 3; ++d)
         parcel.external_force[d] = p.external_force[row][d];
-      parcel.springs.assign(table.begin(row), table.end(row));
       return parcel;
     }
 
     void
-    unpack(const Parcel      &parcel,
-           ParticleArrays    &p,
-           SpringTable       &table,
-           const unsigned int row)
+    unpack(const Parcel &parcel, ParticleArrays &p, const unsigned int row)
     {
       p.type[row] = parcel.type;
       p.mass[row] = parcel.mass;
@@ -76,20 +85,19 @@ namespace graupel
       p.load[row].quanta = parcel.load;
       for (unsigned int d = 0; d < 3; ++d)
         p.external_force[row][d] = parcel.external_force[d];
-      table.add_row(parcel.springs.begin(), parcel.springs.end());
     }
 
+    // One array at a time, so that little is there twice. Rows that come from
+    // elsewhere are left to be filled in.
+    template <class Column>
     void
-    copy_row(const ParticleArrays &from,
-             const unsigned int    old_row,
-             ParticleArrays       &to,
-             const unsigned int    row)
+    rearrange(Column &column, const std::vector<std::uint32_t> &old_row)
     {
-      to.type[row]           = from.type[old_row];
-      to.mass[row]           = from.mass[old_row];
-      to.body[row]           = from.body[old_row];
-      to.load[row]           = from.load[old_row];
-      to.external_force[row] = from.external_force[old_row];
+      Column rearranged(old_row.size());
+      for (std::size_t row = 0; row < old_row.size(); ++row)
+        if (old_row[row] != ParticleStore::no_row)
+          rearranged[row] = column[old_row[row]];
+      column = std::move(rearranged);
     }
   } // namespace
 
@@ -183,41 +191,43 @@ namespace graupel
     mpi::min(claims, communicator(), owners);
 
     for (std::size_t k = 0; k < added.size(); ++k)
-      {
-        if (owners[k] == nobody)
-          {
-            std::ostringstream text;
-            text << "no cell of the mesh holds the point (" << added[k].position
-                 << ") m where a particle was to be inserted; it must lie in the "
-                    "cylinder";
-            throw DemError(text.str());
-          }
-        if (owners[k] == me)
-          {
-            const unsigned int row = p.n_owned++;
-            p.resize(p.n_owned);
-            p.id[row]            = next_id + k;
-            p.type[row]          = added[k].type;
-            p.body[row].position = added[k].position;
-            p.body[row].radius   = added[k].radius;
-            p.body[row].velocity = added[k].velocity;
-            p.body[row].spin     = added[k].spin;
+      if (owners[k] == nobody)
+        {
+          std::ostringstream text;
+          text << "no cell of the mesh holds the point (" << added[k].position
+               << ") m where a particle was to be inserted; it must lie in the "
+                  "cylinder";
+          throw DemError(text.str());
+        }
 
-            std::vector<double> label{1. * me, 1. * row};
-            handler.insert_particle(added[k].position,
-                                    locations[k].reference,
-                                    next_id + k,
-                                    locations[k].cell,
-                                    dealii::make_array_view(label));
-          }
-      }
+    unsigned int row = p.n_owned;
+    p.n_owned += std::count(owners.begin(), owners.end(), me);
+    p.resize(p.n_owned);
+    for (std::size_t k = 0; k < added.size(); ++k)
+      if (owners[k] == me)
+        {
+          p.id[row]            = next_id + k;
+          p.type[row]          = added[k].type;
+          p.body[row].position = added[k].position;
+          p.body[row].radius   = added[k].radius;
+          p.body[row].velocity = added[k].velocity;
+          p.body[row].spin     = added[k].spin;
+
+          std::vector<double> label{1. * me, 1. * row};
+          handler.insert_particle(added[k].position,
+                                  locations[k].reference,
+                                  next_id + k,
+                                  locations[k].cell,
+                                  dealii::make_array_view(label));
+          ++row;
+        }
     next_id += added.size();
     n_expected += added.size();
   }
 
-  void
+  ParticleStore::Moves
   ParticleStore::migrate(ParticleArrays                   &particles,
-                         SpringTable                      &table,
+                         const ContactsOf                 &contacts_of,
                          const std::vector<std::uint32_t> &departed)
   {
     strays.clear();
@@ -225,23 +235,22 @@ namespace graupel
     handler.sort_particles_into_subdomains_and_cells();
     bring_home_strays();
     check_count();
-    collect(particles, table);
+    return collect(particles, contacts_of);
   }
 
-  void
+  ParticleStore::Moves
   ParticleStore::repartition(ParticleArrays    &particles,
-                             SpringTable       &table,
+                             const ContactsOf  &contacts_of,
                              const unsigned int cell_weight,
                              const unsigned int particle_weight)
   {
-    migrate(particles, table, {});
     handler.prepare_for_coarsening_and_refinement();
     mesh.repartition([&](const CellIterator &cell) {
       return cell_weight + particle_weight * handler.n_particles_in_cell(cell);
     });
     handler.unpack_after_coarsening_and_refinement();
     check_count();
-    collect(particles, table);
+    return collect(particles, contacts_of);
   }
 
   void
@@ -277,20 +286,18 @@ namespace graupel
     handler.remove_particles(to_remove);
   }
 
-  void
-  ParticleStore::collect(ParticleArrays &particles, SpringTable &table)
+  ParticleStore::Moves
+  ParticleStore::collect(ParticleArrays &particles, const ContactsOf &contacts_of)
   {
     const unsigned int me = mpi::this_mpi_process(communicator());
     const unsigned int n  = handler.n_locally_owned_particles();
 
-    // The rows of this rank in their new order, with the old rows; cells.
-    std::vector<std::pair<unsigned int, unsigned int>> source(n);
-    std::map<unsigned int, std::vector<unsigned int>>  wanted;
-    ParticleArrays                                     collected;
-    collected.n_owned = n;
-    collected.resize(n);
+    // For each new row the old one, and what is to be fetched from which rank.
+    std::vector<std::uint32_t>                         old_row(n, no_row);
+    std::vector<std::int64_t>                          ids(n);
+    std::map<unsigned int, std::vector<std::uint32_t>> wanted, awaited;
     cells.clear();
-    unsigned int row = 0;
+    std::uint32_t row = 0;
     for (const auto &cell : mesh.triangulation().active_cell_iterators())
       {
         if (!cell->is_locally_owned() || handler.n_particles_in_cell(cell) == 0)
@@ -298,12 +305,17 @@ namespace graupel
         cells.push_back({cell, row, {}});
         for (auto &particle : handler.particles_in_cell(cell))
           {
-            const auto label  = particle.get_properties();
-            collected.id[row] = particle.get_id();
-            source[row]       = {static_cast<unsigned int>(label[holder]),
-                                 static_cast<unsigned int>(label[holders_row])};
-            if (source[row].first != me)
-              wanted[source[row].first].push_back(source[row].second);
+            const auto label = particle.get_properties();
+            const auto rank  = static_cast<unsigned int>(label[holder]);
+            const auto from  = static_cast<std::uint32_t>(label[holders_row]);
+            if (rank == me)
+              old_row[row] = from;
+            else
+              {
+                wanted[rank].push_back(from);
+                awaited[rank].push_back(row);
+              }
+            ids[row]           = particle.get_id();
             label[holder]      = me;
             label[holders_row] = row;
             cells.back().reference_locations.push_back(particle.get_reference_location());
@@ -311,31 +323,39 @@ namespace graupel
           }
       }
 
-    std::map<unsigned int, std::vector<Parcel>> sent, received;
+    std::map<unsigned int, Delivery> sent, received;
     if (mpi::n_mpi_processes(communicator()) > 1)
       {
         for (const auto &[rank, rows] : mpi::some_to_some(communicator(), wanted))
-          for (const unsigned int old_row : rows)
-            sent[rank].push_back(pack(particles, table, old_row));
+          {
+            for (const auto leaving : rows)
+              sent[rank].parcels.push_back(pack(particles, leaving));
+            sent[rank].contacts = contacts_of(rows);
+          }
         received = mpi::some_to_some(communicator(), sent);
       }
 
-    SpringTable                          collected_table;
-    std::map<unsigned int, unsigned int> next;
-    collected_table.clear();
+    Moves moves;
+    moves.new_row.assign(particles.n_owned, no_row);
     for (row = 0; row < n; ++row)
+      if (old_row[row] != no_row)
+        moves.new_row[old_row[row]] = row;
+
+    particles.id = std::move(ids);
+    rearrange(particles.type, old_row);
+    rearrange(particles.body, old_row);
+    rearrange(particles.mass, old_row);
+    rearrange(particles.load, old_row);
+    rearrange(particles.external_force, old_row);
+    particles.n_owned = n;
+    for (const auto &[rank, delivery] : received)
       {
-        const auto [rank, old_row] = source[row];
-        if (rank != me)
-          unpack(received[rank][next[rank]++], collected, collected_table, row);
-        else
-          {
-            copy_row(particles, old_row, collected, row);
-            collected_table.add_row(table.begin(old_row), table.end(old_row));
-          }
+        for (std::size_t k = 0; k < delivery.parcels.size(); ++k)
+          unpack(delivery.parcels[k], particles, awaited[rank][k]);
+        moves.arrived.insert(
+          moves.arrived.end(), delivery.contacts.begin(), delivery.contacts.end());
       }
-    particles = std::move(collected);
-    table     = std::move(collected_table);
+    return moves;
   }
 
   void

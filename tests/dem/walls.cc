@@ -1,5 +1,4 @@
 #include <graupel/dem/contact_list.h>
-#include <graupel/dem/spring_table.h>
 #include <graupel/dem/walls.h>
 
 #include <gtest/gtest.h>
@@ -50,29 +49,6 @@ namespace
     EXPECT_EQ(walls[bottom_wall].at(x).normal.z, -1.);
     EXPECT_NEAR(walls[top_wall].at(x).distance, 0.1678, 1e-15);
     EXPECT_EQ(walls[top_wall].at(x).normal.z, 1.);
-  }
-
-  // What is filled in by row in any order comes out by row.
-  TEST(SpringTable, SortsByRow)
-  {
-    SpringTable                                                    table;
-    const std::vector<std::pair<unsigned int, SpringTable::Entry>> entries{
-      {2, {7, {{1., 2., 3.}, {4., 5., 6.}}}},
-      {0, {wall_id(bottom_wall), {}}},
-      {2, {9, {{-1., 0., 0.}, {0., 0., 1e-30}}}}};
-    table.fill(4, [&](const auto &put) {
-      for (const auto &[row, entry] : entries)
-        put(row, entry);
-    });
-    EXPECT_EQ(table.n_rows(), 4u);
-    EXPECT_EQ(table.end(0) - table.begin(0), 1);
-    EXPECT_EQ(table.begin(0)->partner, wall_id(bottom_wall));
-    EXPECT_EQ(table.begin(1), table.end(1));
-    ASSERT_EQ(table.end(2) - table.begin(2), 2);
-    EXPECT_EQ(table.begin(2)[0].partner, 7);
-    EXPECT_EQ(table.begin(2)[0].springs.tangential.z, 3.);
-    EXPECT_EQ(table.begin(2)[1].springs.rolling.z, 1e-30);
-    EXPECT_EQ(table.begin(3), table.end(3));
   }
 
   // Contacts without holes: whatever is removed, the others keep their springs.

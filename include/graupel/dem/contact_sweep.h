@@ -2,9 +2,9 @@
 #define graupel_dem_contact_sweep_h
 
 #include <graupel/dem/contact_list.h>
+#include <graupel/dem/loose_contact.h>
 #include <graupel/dem/materials.h>
 #include <graupel/dem/particle_arrays.h>
-#include <graupel/dem/spring_table.h>
 #include <graupel/dem/verlet_list.h>
 #include <graupel/dem/walls.h>
 
@@ -83,6 +83,9 @@ namespace graupel
     /** Overlap relative to the radius from which on a contact is a failure [-]. */
     static constexpr double largest_overlap = 0.3;
 
+    /** The new number of a row that has gone. */
+    static constexpr std::uint32_t no_row = -1;
+
     /**
      * @p reference_force: size of a large contact force, that of an overlap of
      * 10 % of the radius of the largest particle [N]; @p reference_radius: its
@@ -95,19 +98,24 @@ namespace graupel
                  const double       reference_force,
                  const double       reference_radius);
 
-    /** Makes the contacts those of @p table; rows of ghosts must be there. */
-    void load(const ParticleArrays &particles, const SpringTable &table);
-
-    /** Writes the springs of all contacts to @p table, a row for each own particle. */
-    void store(const ParticleArrays &particles, SpringTable &table) const;
+    /** The contacts in which at least one of some own rows takes part. */
+    std::vector<LooseContact> contacts_of(const ParticleArrays             &particles,
+                                          const std::vector<std::uint32_t> &rows) const;
 
     /**
-     * Follows a new numbering of the ghosts: contacts of rows from @p n_owned on
-     * in @p old_ids go to the rows that have these ids now.
+     * Follows a new numbering of the rows: @p new_row of an old own row, or no_row
+     * if it has gone; ghosts have no number any more. Returns the contacts between
+     * an own row that stays and a ghost or one that goes; they are to be given back
+     * by add(). @p old_ids are the ids of the old rows.
      */
-    void renumber_ghosts(const std::vector<std::int64_t> &old_ids,
-                         const unsigned int               old_n_owned,
-                         const ParticleArrays            &particles);
+    std::vector<LooseContact> renumber(const std::vector<std::int64_t>  &old_ids,
+                                       const std::vector<std::uint32_t> &new_row);
+
+    /**
+     * Adds contacts of own particles; rows of ghosts must be there. What is given
+     * twice counts once.
+     */
+    void add(const ParticleArrays &particles, std::vector<LooseContact> contacts);
 
     /** The contacts between particles as a table of rows. */
     TouchingRows touching_rows(const unsigned int n_rows) const;

@@ -204,15 +204,14 @@ namespace graupel
     }
 
   private:
-    Integration integration(const double dt) const;
-    void        substep_by(const double dt, const bool first);
-    void        update_neighbors();
-    std::string first_problem() const;
-    void        list_neighbors();
-    void        exchange_ghosts();
-    void        store_springs();
-    void        restart_contacts();
-    bool        has_external_forces() const;
+    Integration               integration(const double dt) const;
+    void                      substep_by(const double dt, const bool first);
+    void                      update_neighbors();
+    std::string               first_problem() const;
+    void                      list_neighbors();
+    ParticleStore::ContactsOf contacts_of() const;
+    void follow(const std::vector<std::int64_t> &old_ids, ParticleStore::Moves moves);
+    bool has_external_forces() const;
 
     const DemParameters  input;
     CylinderMesh        &mesh;
@@ -226,7 +225,6 @@ namespace graupel
 
     ParticleStore  particle_store;
     ParticleArrays arrays;
-    SpringTable    spring_table;
     Halo           halo;
     VerletList     list;
     ContactSweep   contacts;

@@ -1,8 +1,8 @@
 #ifndef graupel_dem_particle_store_h
 #define graupel_dem_particle_store_h
 
+#include <graupel/dem/loose_contact.h>
 #include <graupel/dem/particle_arrays.h>
-#include <graupel/dem/spring_table.h>
 #include <graupel/mesh/cylinder.h>
 
 #include <deal.II/grid/grid_tools_cache.h>
@@ -44,27 +44,41 @@ namespace graupel
      */
     void insert(const std::vector<NewParticle> &added, ParticleArrays &particles);
 
+    /** The contacts of some own rows, given to a migration to go with them. */
+    using ContactsOf =
+      std::function<std::vector<LooseContact>(const std::vector<std::uint32_t> &rows)>;
+
+    /** What a migration did to the rows. */
+    struct Moves
+    {
+      /** For each old own row its new one, or no_row if it is not here any more. */
+      std::vector<std::uint32_t> new_row;
+      /** Contacts of the particles that came from other ranks. */
+      std::vector<LooseContact> arrived;
+    };
+    static constexpr std::uint32_t no_row = -1;
+
     /**
-     * Finds the cell and rank of every particle and moves it there, with its row
-     * of @p table; removes first those that are listed in @p departed, own rows.
-     * Afterwards the arrays hold own rows only, those of one cell contiguous.
-     * Collective. Throws DemError, with number, last place and reason, for a lost
-     * particle. What deal.II gives up (a particle exactly on a face; a long way
-     * within one migration) is searched for in all cells of all ranks.
+     * Finds the cell and rank of every particle and moves it there; removes first
+     * those that are listed in @p departed, own rows. Afterwards the arrays hold
+     * own rows only, those of one cell contiguous. Collective. Throws DemError,
+     * with number, last place and reason, for a lost particle. What deal.II gives
+     * up (a particle exactly on a face; a long way within one migration) is
+     * searched for in all cells of all ranks.
      */
-    void migrate(ParticleArrays                   &particles,
-                 SpringTable                      &table,
-                 const std::vector<std::uint32_t> &departed);
+    Moves migrate(ParticleArrays                   &particles,
+                  const ContactsOf                 &contacts_of,
+                  const std::vector<std::uint32_t> &departed);
 
     /**
      * Divides the mesh among the ranks anew, so that the sum of @p cell_weight +
-     * @p particle_weight * particles is even, and moves the particles along, as
-     * migrate() does. Collective.
+     * @p particle_weight * particles is even, and moves the particles along. They
+     * must have migrated just before. Collective.
      */
-    void repartition(ParticleArrays    &particles,
-                     SpringTable       &table,
-                     const unsigned int cell_weight,
-                     const unsigned int particle_weight);
+    Moves repartition(ParticleArrays    &particles,
+                      const ContactsOf  &contacts_of,
+                      const unsigned int cell_weight,
+                      const unsigned int particle_weight);
 
     /**
      * Calls @p visit for each locally owned cell that holds particles, with the
@@ -116,11 +130,11 @@ namespace graupel
     // Collective.
     std::vector<unsigned int> place(const std::vector<Traveller> &travellers);
 
-    void set_places(const ParticleArrays             &particles,
-                    const std::vector<std::uint32_t> &departed);
-    void collect(ParticleArrays &particles, SpringTable &table);
-    void bring_home_strays();
-    void check_count();
+    void  set_places(const ParticleArrays             &particles,
+                     const std::vector<std::uint32_t> &departed);
+    Moves collect(ParticleArrays &particles, const ContactsOf &contacts_of);
+    void  bring_home_strays();
+    void  check_count();
 
     struct CellRows
     {
