@@ -37,6 +37,22 @@ namespace graupel
               {n[13], n[14], n[15]}};
     }
 
+    // How many blocks the memory is asked in advance.
+    constexpr std::size_t blocks_ahead = 4;
+
+    [[gnu::always_inline]] inline void
+    prefetch(const ContactList::Block &block, const Body *bodies, const Load *sums)
+    {
+      for (const auto *rows : {block.first, block.second})
+        for (unsigned int l = 0; l < n_lanes; ++l)
+          {
+            const char *body = reinterpret_cast<const char *>(bodies + rows[l]);
+            __builtin_prefetch(body);
+            __builtin_prefetch(body + 64);
+            __builtin_prefetch(sums + rows[l], 1);
+          }
+    }
+
     [[gnu::always_inline]] inline Springs<Lanes>
     load_springs(const ContactList::Block &block)
     {
@@ -136,6 +152,14 @@ namespace graupel
     , idle_rows(n_walls)
     , loads(n_walls)
   {
+  }
+
+  void
+  ContactSweep::sort()
+  {
+    for (auto *lists : {&pair_lists, &wall_lists})
+      for (auto &list : *lists)
+        list.sort_if_needed();
   }
 
   std::vector<LooseContact>
@@ -358,9 +382,11 @@ namespace graupel
     for (std::size_t b = 0; b < contacts.blocks.size(); ++b)
       {
         ContactList::Block &block = contacts.blocks[b];
-        const BodyLanes     i     = load_bodies(bodies, block.first);
-        const BodyLanes     j     = load_bodies(bodies, block.second);
-        const auto here = lane_numbers() < Lanes(1. * (contacts.size() - b * n_lanes));
+        if (b + blocks_ahead < contacts.blocks.size())
+          prefetch(contacts.blocks[b + blocks_ahead], bodies, sums);
+        const BodyLanes i = load_bodies(bodies, block.first);
+        const BodyLanes j = load_bodies(bodies, block.second);
+        const auto here   = lane_numbers() < Lanes(1. * (contacts.size() - b * n_lanes));
 
         Contact<Lanes>      contact;
         const Triple<Lanes> between  = j.position - i.position;

@@ -285,6 +285,7 @@ namespace graupel
         contacts.add(arrays, std::move(loose));
       }
     CostSheet::Scope scope(costs, CostSheet::neighbor);
+    contacts.sort();
     list.build(arrays, walls, contacts.touching_rows(arrays.n_rows()));
     contacts.watch_walls(list);
     moved_since_list = mpi::max(list.largest_move(arrays), communicator());

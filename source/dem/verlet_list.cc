@@ -227,5 +227,8 @@ namespace graupel
       else
         far[kept++] = pair;
     far.resize(kept);
+    std::sort(near.begin(), near.end(), [](const NeighborPair &a, const NeighborPair &b) {
+      return a.first < b.first;
+    });
   }
 } // namespace graupel

@@ -3,6 +3,7 @@
 
 #include <graupel/dem/contact_laws.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -44,11 +45,26 @@ namespace graupel
       fresh = n;
     }
 
+    /**
+     * Sorts by the first row, if many contacts have begun since the last time:
+     * then the loop over contacts finds the particles in the cache. Only while
+     * there are no fresh ones.
+     */
     void
-    clear()
+    sort_if_needed()
     {
-      blocks.clear();
-      n = fresh = 0;
+      if (appended * 20 < n)
+        return;
+      std::vector<std::pair<std::uint64_t, std::uint32_t>> order(n);
+      for (std::size_t k = 0; k < n; ++k)
+        order[k] = {(static_cast<std::uint64_t>(first(k)) << 32) | second(k), k};
+      std::sort(order.begin(), order.end());
+      ContactList sorted;
+      sorted.blocks.reserve(blocks.size());
+      for (const auto &[rows, k] : order)
+        sorted.add(first(k), second(k), springs(k));
+      *this    = std::move(sorted);
+      appended = 0;
     }
 
     /** Adds an old contact; only while there are no fresh ones. */
@@ -138,10 +154,13 @@ namespace graupel
       block.first[l]  = first;
       block.second[l] = second;
       ++n;
+      ++appended;
     }
 
     std::size_t n     = 0;
     std::size_t fresh = 0;
+    // Since the last sort.
+    std::size_t appended = 0;
   };
 } // namespace graupel
 

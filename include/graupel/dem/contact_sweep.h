@@ -98,6 +98,9 @@ namespace graupel
                  const double       reference_force,
                  const double       reference_radius);
 
+    /** Puts the contacts into the order of the rows, if many have begun. */
+    void sort();
+
     /** The contacts in which at least one of some own rows takes part. */
     std::vector<LooseContact> contacts_of(const ParticleArrays             &particles,
                                           const std::vector<std::uint32_t> &rows) const;
