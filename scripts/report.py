@@ -15,7 +15,15 @@ import sys
 from pathlib import Path
 
 try:
-    from report_parts import figures_bed, figures_inside, figures_run, page, reference, style
+    from report_parts import (
+        figures_bed,
+        figures_inside,
+        figures_run,
+        figures_settled,
+        page,
+        reference,
+        style,
+    )
     from report_parts.run_output import read_run
 except ImportError as error:
     sys.exit(f"report.py: {error}. The report needs Debian's python3-matplotlib.")
@@ -29,6 +37,8 @@ FIGURES = {
     "void-fraction": figures_inside.void_fraction,
     "flux": figures_inside.flux,
     "radial": figures_inside.radial,
+    "bed-radial": figures_settled.bed_radial,
+    "bed-janssen": figures_settled.bed_janssen,
     "monitors": figures_run.monitors,
     "cost": figures_run.cost,
 }

@@ -84,6 +84,13 @@ def captions(run, paper):
         "radial": "<b>From the wall inwards.</b> Averages over the middle half of the bed's height"
         " and around the axis: void fraction (left) and axial volumetric flux over the superficial"
         " velocity (right).",
+        "bed-radial": "<b>Void fraction of the settled bed from the wall inwards.</b> Spheres cut"
+        " exactly, over the middle half of the bed's height; dashed: de Klerk's correlation (2003)"
+        " with the bulk void fraction of this bed.",
+        "bed-janssen": "<b>Who carries the weight of the settled bed.</b> Left: vertical stress"
+        " against height, Janssen's formula with the friction that the wall has mobilised, and the"
+        " stress without a wall. Right: at every plane, the weight above it and the loads that"
+        " carry it.",
         "monitors": "<b>The run over time.</b> Every fluid step; shading and the names on top tell"
         " the phases, and the numbers the flow cases. Speeds, energies and imbalances are on"
         " logarithmic axes, without their zeros.",
@@ -133,6 +140,7 @@ SECTIONS = (
     ("Deviation from Ergun", ("deviation",)),
     ("Forces and lift", ("bottom-force", "bed-height")),
     ("Inside the bed", ("void-fraction", "flux", "radial")),
+    ("The settled bed", ("bed-radial", "bed-janssen")),
     ("Over time", ("monitors",)),
     ("Cost", ("cost",)),
 )

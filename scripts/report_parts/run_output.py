@@ -55,6 +55,18 @@ MONITOR_COLUMNS = (
 )
 PROFILE_COLUMNS = ("z", "pressure", "void_fraction", "superficial_velocity", "ergun_pressure")
 RADIAL_COLUMNS = ("wall_distance", "void_fraction", "superficial_velocity")
+BED_COLUMNS = {
+    "bed-radial": ("wall_distance", "void_fraction", "de_klerk"),
+    "bed-janssen": (
+        "z",
+        "weight",
+        "load",
+        "wall_load",
+        "stress",
+        "janssen_stress",
+        "mobilised_friction",
+    ),
+}
 MIDPLANE_COLUMNS = ("x", "z", "void_fraction", "superficial_velocity", "pressure")
 TEXT_COLUMNS = ("phase",)
 
@@ -75,6 +87,7 @@ class RunOutput:
     profiles: dict = field(default_factory=dict)
     radial: dict = field(default_factory=dict)
     midplane: dict = field(default_factory=dict)
+    bed: dict = field(default_factory=dict)
     notices: list = field(default_factory=list)
 
     def get(self, *path):
@@ -250,6 +263,11 @@ def read_run(directory):
         notices.append("monitors.csv is missing.")
     run.profiles = read_numbered(run.directory, "profiles", PROFILE_COLUMNS, run.cases, notices)
     run.radial = read_numbered(run.directory, "radial", RADIAL_COLUMNS, run.cases, notices)
+    for name, columns in BED_COLUMNS.items():
+        path = run.directory / f"{name}.csv"
+        table = read_table(path, columns, notices) if path.is_file() else None
+        if table is not None:
+            run.bed[name] = table
     run.midplane = read_numbered(
         run.directory, "midplane", MIDPLANE_COLUMNS, run.cases, notices, every_case=False
     )

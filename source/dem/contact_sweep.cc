@@ -114,24 +114,26 @@ namespace graupel
     }
 
     Contact<double>
-    contact_of_wall(const Body &i, const double mass, const Wall &wall)
+    contact_of_wall(const Body                 &i,
+                    const double                mass,
+                    const WallGeometry<double> &geometry,
+                    const Triple<double>       &wall_velocity)
     {
       Contact<double> contact;
-      const auto      geometry = wall.at(triple(i.position));
-      contact.overlap          = i.radius - geometry.distance;
-      contact.normal           = geometry.normal;
-      contact.radius           = i.radius;
-      contact.mass             = mass;
-      contact.velocity         = triple(i.velocity) - wall.velocity() +
+      contact.overlap  = i.radius - geometry.distance;
+      contact.normal   = geometry.normal;
+      contact.radius   = i.radius;
+      contact.mass     = mass;
+      contact.velocity = triple(i.velocity) - wall_velocity +
                          geometry.distance * cross(triple(i.spin), contact.normal);
       contact.step = 0.;
       return contact;
     }
 
-    double
-    overlap_of(const Body &a, const Body &b)
+    bool
+    is_surface(const Wall &wall)
     {
-      return a.radius + b.radius - a.position.distance(b.position);
+      return std::holds_alternative<SurfaceWall>(wall.shape);
     }
   } // namespace
 
@@ -179,7 +181,7 @@ namespace graupel
       for (std::size_t k = 0; k < wall_lists[w].size(); ++k)
         if (wanted[wall_lists[w].first(k)])
           contacts.push_back({particles.id[wall_lists[w].first(k)],
-                              wall_id(w / n_types),
+                              wall_id(w / n_types, wall_lists[w].second(k)),
                               wall_lists[w].springs(k)});
     return contacts;
   }
@@ -212,7 +214,7 @@ namespace graupel
         if (number(list.first(k)) == no_row)
           list.remove(k);
         else
-          list.first(k) = list.second(k) = number(list.first(k));
+          list.first(k) = number(list.first(k));
     return loose;
   }
 
@@ -246,8 +248,8 @@ namespace graupel
         const auto i = row_of(contact.first);
         if (contact.second < 0)
           {
-            const unsigned int wall = -1 - contact.second;
-            wall_lists[wall * n_types + particles.type[i]].add(i, i, contact.springs);
+            wall_lists[wall_of(contact.second) * n_types + particles.type[i]].add(
+              i, facet_of(contact.second), contact.springs);
             continue;
           }
         const auto j = row_of(contact.second);
@@ -283,13 +285,14 @@ namespace graupel
   }
 
   void
-  ContactSweep::watch_walls(const VerletList &list)
+  ContactSweep::watch_walls(const VerletList &list, const std::vector<Wall> &walls)
   {
     std::vector<std::uint32_t> touching;
     for (unsigned int w = 0; w < n_walls; ++w)
       {
         touching.clear();
-        for (unsigned int t = 0; t < n_types; ++t)
+        // A surface may be touched at several places: its rows all stay.
+        for (unsigned int t = 0; t < n_types && !is_surface(walls[w]); ++t)
           for (std::size_t k = 0; k < wall_lists[w * n_types + t].size(); ++k)
             touching.push_back(wall_lists[w * n_types + t].first(k));
         std::sort(touching.begin(), touching.end());
@@ -305,15 +308,37 @@ namespace graupel
   void
   ContactSweep::begin_pairs(const ParticleArrays &particles, VerletList &list)
   {
-    auto       &near = list.near;
-    std::size_t kept = 0;
-    for (std::size_t k = 0; k < near.size(); ++k)
+    auto             &near   = list.near;
+    const Body       *bodies = particles.body.data();
+    const std::size_t n      = near.size();
+    std::size_t       kept   = 0;
+    for (std::size_t k = 0; k < n; k += n_lanes)
       {
-        const auto [i, j] = near[k];
-        if (overlap_of(particles.body[i], particles.body[j]) > 0.)
-          pair_list(particles, near[k]).begin(i, j);
-        else
-          near[kept++] = near[k];
+        // The last pair fills up the last lanes.
+        std::uint32_t first[n_lanes], second[n_lanes];
+        for (unsigned int l = 0; l < n_lanes; ++l)
+          {
+            const NeighborPair &pair = near[std::min(k + l, n - 1)];
+            first[l]                 = pair.first;
+            second[l]                = pair.second;
+            __builtin_prefetch(bodies +
+                               near[std::min(k + 4 * n_lanes + l, n - 1)].second);
+          }
+        Lanes i[8], j[8];
+        load_records<8>(bodies, first, 0, i);
+        load_records<8>(bodies, second, 0, j);
+        const Triple<Lanes> between{j[0] - i[0], j[1] - i[1], j[2] - i[2]};
+        const auto          touches = i[3] + j[3] - between.norm() > Lanes(0.);
+        if (!some(touches) && kept == k)
+          {
+            kept = std::min(k + n_lanes, n);
+            continue;
+          }
+        for (unsigned int l = 0; l < n_lanes && k + l < n; ++l)
+          if (touches[l])
+            pair_list(particles, {first[l], second[l]}).begin(first[l], second[l]);
+          else
+            near[kept++] = {first[l], second[l]};
       }
     near.resize(kept);
   }
@@ -325,19 +350,31 @@ namespace graupel
     for (unsigned int w = 0; w < n_walls; ++w)
       std::visit(
         [&](const auto &surface) {
-          auto       &rows = idle_rows[w];
-          std::size_t kept = 0;
-          for (const std::uint32_t i : rows)
-            {
-              const Body &body = particles.body[i];
-              if (body.radius - surface.at(triple(body.position)).distance > 0.)
-                wall_lists[w * n_types + particles.type[i]].begin(i, i);
-              else
-                rows[kept++] = i;
-            }
-          rows.resize(kept);
+          if constexpr (std::is_same_v<std::decay_t<decltype(surface)>, SurfaceWall>)
+            return;
+          else
+            begin_wall(particles, surface, w);
         },
         walls[w].shape);
+  }
+
+  template <class Surface>
+  void
+  ContactSweep::begin_wall(const ParticleArrays &particles,
+                           const Surface        &surface,
+                           const unsigned int    w)
+  {
+    auto       &rows = idle_rows[w];
+    std::size_t kept = 0;
+    for (const std::uint32_t i : rows)
+      {
+        const Body &body = particles.body[i];
+        if (body.radius - surface.at(triple(body.position)).distance > 0.)
+          wall_lists[w * n_types + particles.type[i]].begin(i, 0);
+        else
+          rows[kept++] = i;
+      }
+    rows.resize(kept);
   }
 
   void
@@ -459,13 +496,13 @@ namespace graupel
 
   template <class NormalLaw, class RollingLaw, class Surface>
   [[gnu::noinline]] void
-  ContactSweep::sweep_wall(ContactList        &contacts,
-                           ParticleArrays     &particles,
-                           const unsigned int  wall,
-                           const Surface      &surface,
-                           const PairMaterial &material,
-                           const double        density,
-                           const double        dt)
+  ContactSweep::sweep_wall_contacts(ContactList        &contacts,
+                                    ParticleArrays     &particles,
+                                    const unsigned int  wall,
+                                    const Surface      &surface,
+                                    const PairMaterial &material,
+                                    const double        density,
+                                    const double        dt)
   {
     const double        to_mass  = 4. / 3. * PI * density;
     const double        to_force = 1. / quantum.force, to_torque = 1. / quantum.torque;
@@ -531,6 +568,128 @@ namespace graupel
       loads[wall][d] += std::experimental::reduce(sum[d]);
   }
 
+  template <class NormalLaw, class RollingLaw, class Surface>
+  void
+  ContactSweep::sweep_wall(ParticleArrays    &particles,
+                           const unsigned int wall,
+                           const Surface     &surface,
+                           const Materials   &materials,
+                           const double       dt)
+  {
+    for (unsigned int type = 0; type < n_types; ++type)
+      {
+        ContactList &contacts = wall_lists[wall * n_types + type];
+        ended.clear();
+        sweep_wall_contacts<NormalLaw, RollingLaw>(contacts,
+                                                   particles,
+                                                   wall,
+                                                   surface,
+                                                   materials.with_wall(wall, type),
+                                                   materials.density[type],
+                                                   dt);
+        contacts.age();
+        for (auto k = ended.rbegin(); k != ended.rend(); ++k)
+          {
+            idle_rows[wall].push_back(contacts.first(*k));
+            contacts.remove(*k);
+          }
+      }
+  }
+
+  template <class NormalLaw, class RollingLaw>
+  void
+  ContactSweep::sweep_surface(ParticleArrays    &particles,
+                              const unsigned int wall,
+                              const SurfaceWall &surface,
+                              const Materials   &materials,
+                              const double       dt)
+  {
+    // Both in the order of the rows.
+    std::sort(idle_rows[wall].begin(), idle_rows[wall].end());
+    for (unsigned int type = 0; type < n_types; ++type)
+      {
+        const PairMaterial &material = materials.with_wall(wall, type);
+        ContactList         before   = std::move(wall_lists[wall * n_types + type]);
+        ContactList        &after    = wall_lists[wall * n_types + type];
+        before.sort();
+        after.clear();
+        std::size_t next = 0;
+        for (const std::uint32_t row : idle_rows[wall])
+          {
+            if (particles.type[row] != type)
+              continue;
+            const Body  &body    = particles.body[row];
+            const double release = NormalLaw::release_overlap(material, body.radius);
+            while (next < before.size() && before.first(next) < row)
+              ++next;
+            touches.clear();
+            surface.mesh.touches(body.position, body.radius - release, touches);
+            for (const auto &touch : touches)
+              {
+                std::size_t k = next;
+                while (k < before.size() && before.first(k) == row &&
+                       before.second(k) != touch.facet)
+                  ++k;
+                const bool is_old = k < before.size() && before.first(k) == row;
+                if (!is_old && touch.distance >= body.radius)
+                  continue;
+                Springs<double> springs = is_old ? before.springs(k) : Springs<double>{};
+                sweep_surface_contact<NormalLaw, RollingLaw>(particles,
+                                                             row,
+                                                             touch,
+                                                             wall,
+                                                             surface.velocity,
+                                                             material,
+                                                             dt,
+                                                             !is_old,
+                                                             springs);
+                after.add(row, touch.facet, springs);
+              }
+          }
+      }
+  }
+
+  template <class NormalLaw, class RollingLaw>
+  void
+  ContactSweep::sweep_surface_contact(ParticleArrays           &particles,
+                                      const std::uint32_t       row,
+                                      const SurfaceMesh::Touch &touch,
+                                      const unsigned int        wall,
+                                      const Triple<double>     &wall_velocity,
+                                      const PairMaterial       &material,
+                                      const double              dt,
+                                      const bool                is_fresh,
+                                      Springs<double>          &springs)
+  {
+    const Body     &body    = particles.body[row];
+    Contact<double> contact = contact_of_wall(
+      body, particles.mass[row], {touch.distance, triple(touch.normal)}, wall_velocity);
+    contact.drift = triple(body.drift) - wall_velocity +
+                    touch.distance * cross(triple(body.spin_drift), contact.normal);
+    contact.spin_drift = triple(body.spin_drift);
+    contact.step       = is_fresh ? step_in_contact(contact, dt) : dt;
+    const auto action = contact_action<NormalLaw, RollingLaw>(material, contact, springs);
+    if (!(contact.overlap < largest_overlap * body.radius &&
+          action.force.norm_square() < largest_force * largest_force))
+      {
+        failed_first   = row;
+        failed_partner = wall_id(wall, touch.facet);
+        failed_overlap = contact.overlap;
+        return;
+      }
+    const auto torque =
+      touch.distance * cross(contact.normal, action.force) + action.rolling_torque;
+    const double force[3] = {action.force.x, action.force.y, action.force.z};
+    const double turn[3]  = {torque.x, torque.y, torque.z};
+    for (unsigned int d = 0; d < 3; ++d)
+      {
+        auto &quanta = particles.load[row].quanta;
+        quanta[d] += static_cast<std::int64_t>((1. / quantum.force) * force[d]);
+        quanta[3 + d] += static_cast<std::int64_t>((1. / quantum.torque) * turn[d]);
+        loads[wall][d] -= static_cast<std::int64_t>((1. / quantum.wall) * force[d]);
+      }
+  }
+
   void
   ContactSweep::sweep(ParticleArrays          &particles,
                       VerletList              &list,
@@ -566,28 +725,16 @@ namespace graupel
             }
 
         for (unsigned int w = 0; w < n_walls; ++w)
-          for (unsigned int type = 0; type < n_types; ++type)
-            {
-              ContactList &contacts = wall_lists[w * n_types + type];
-              ended.clear();
-              std::visit(
-                [&](const auto &surface) {
-                  sweep_wall<NormalLaw, RollingLaw>(contacts,
-                                                    particles,
-                                                    w,
-                                                    surface,
-                                                    materials.with_wall(w, type),
-                                                    materials.density[type],
-                                                    dt);
-                },
-                walls[w].shape);
-              contacts.age();
-              for (auto k = ended.rbegin(); k != ended.rend(); ++k)
-                {
-                  idle_rows[w].push_back(contacts.first(*k));
-                  contacts.remove(*k);
-                }
-            }
+          std::visit(
+            [&](const auto &surface) {
+              using Surface = std::decay_t<decltype(surface)>;
+              if constexpr (std::is_same_v<Surface, SurfaceWall>)
+                sweep_surface<NormalLaw, RollingLaw>(
+                  particles, w, surface, materials, dt);
+              else if constexpr (!std::is_same_v<Surface, NoWall>)
+                sweep_wall<NormalLaw, RollingLaw>(particles, w, surface, materials, dt);
+            },
+            walls[w].shape);
       },
       normal_law,
       rolling_law);
@@ -603,7 +750,7 @@ namespace graupel
     text << "particle " << particles.id[failed_first] << " at ("
          << particles.body[failed_first].position << ") m overlaps "
          << (failed_partner < 0
-               ? "the " + walls[-1 - failed_partner].name
+               ? "the " + walls[wall_of(failed_partner)].name
                : "particle " + std::to_string(particles.id[failed_partner]))
          << " by " << failed_overlap << " m, "
          << 100. * failed_overlap / particles.body[failed_first].radius
@@ -683,16 +830,21 @@ namespace graupel
       for (unsigned int w = 0; w < wall_lists.size(); ++w)
         for (std::size_t k = 0; k < wall_lists[w].size(); ++k)
           {
-            const auto i = wall_lists[w].first(k);
-            const auto contact =
-              contact_of_wall(p.body[i], p.mass[i], walls[w / n_types]);
-            auto       springs = wall_lists[w].springs(k);
-            const auto action  = contact_action<NormalLaw, RollingLaw>(
+            const auto  i       = wall_lists[w].first(k);
+            const Wall &wall    = walls[w / n_types];
+            const auto  contact = contact_of_wall(p.body[i],
+                                                 p.mass[i],
+                                                 wall.at(triple(p.body[i].position),
+                                                         wall_lists[w].second(k),
+                                                         2. * p.body[i].radius),
+                                                 wall.velocity());
+            auto        springs = wall_lists[w].springs(k);
+            const auto  action  = contact_action<NormalLaw, RollingLaw>(
               materials.with_wall(w / n_types, w % n_types), contact, springs);
             const auto normal_vector = tensor(contact.normal);
             states.push_back(
               {p.id[i],
-               wall_id(w / n_types),
+               wall_id(w / n_types, wall_lists[w].second(k)),
                p.body[i].position,
                p.body[i].position + (p.body[i].radius - contact.overlap) * normal_vector,
                contact.overlap,

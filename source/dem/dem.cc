@@ -287,7 +287,7 @@ namespace graupel
     CostSheet::Scope scope(costs, CostSheet::neighbor);
     contacts.sort();
     list.build(arrays, walls, contacts.touching_rows(arrays.n_rows()));
-    contacts.watch_walls(list);
+    contacts.watch_walls(list, walls);
     moved_since_list = mpi::max(list.largest_move(arrays), communicator());
     moved_since_sort = 0.;
     list_is_valid    = true;

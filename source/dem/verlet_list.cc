@@ -49,6 +49,9 @@ namespace graupel
     sort_into_bins(particles, 2. * largest + skin);
     find_pairs(particles, touching);
     sort_by_distance(particles);
+    std::sort(near.begin(), near.end(), [](const NeighborPair &a, const NeighborPair &b) {
+      return a.first < b.first;
+    });
 
     for (unsigned int w = 0; w < walls.size(); ++w)
       for (unsigned int i = 0; i < particles.n_owned; ++i)
@@ -227,8 +230,5 @@ namespace graupel
       else
         far[kept++] = pair;
     far.resize(kept);
-    std::sort(near.begin(), near.end(), [](const NeighborPair &a, const NeighborPair &b) {
-      return a.first < b.first;
-    });
   }
 } // namespace graupel

@@ -33,6 +33,7 @@ namespace graupel
         patch.vertices[1]          = contact.second_center;
         patch.patch_index          = c;
         patch.n_subdivisions       = 1;
+        patch.reference_cell       = dealii::ReferenceCells::Line;
         patch.points_are_available = false;
         patch.data.reinit(n_components, 2);
         for (unsigned int i = 0; i < n_components; ++i)

@@ -14,6 +14,14 @@ namespace graupel
     // Part of a case, at its end, over which its numbers are means.
     constexpr double averaged_part = 0.25;
 
+    // While there is no fluid: simulated time between two looks at how particles
+    // are spread over the ranks [s], and what a cell counts, in particles.
+    constexpr double balance_interval    = 0.1;
+    constexpr double share_of_empty_cell = 0.02;
+    // With fluid: cost of a cell in one step of the fluid, in substeps of one
+    // particle (50 microseconds over 30 nanoseconds).
+    constexpr double particle_substeps_of_cell = 1700.;
+
     double
     cpu_seconds()
     {
@@ -61,21 +69,8 @@ namespace graupel
     , progress(progress)
     , communicator(communicator)
     , mesh(parameters.cylinder, parameters.mesh, communicator)
-    , nodes(mesh)
     , dem(parameters.dem, mesh, summary.costs)
     , observables(dem.particles(), dem.cylinder(), communicator)
-    , fluid(parameters.flow,
-            parameters.fluid.density,
-            parameters.fluid.viscosity,
-            nodes,
-            summary.costs)
-    , exchange(parameters.filter_length(),
-               Drag(parameters.drag,
-                    parameters.fluid,
-                    parameters.dem.particles.diameter,
-                    parameters.dem.particles.scale),
-               nodes,
-               summary.costs)
     , next_output(parameters.output.interval)
     , started(Progress::steady_seconds())
   {
@@ -87,14 +82,43 @@ namespace graupel
   PackedBed::run()
   {
     std::ostringstream mesh_line;
-    mesh_line << "mesh: " << mesh.triangulation().n_global_active_cells() << " cells, "
-              << nodes.dof_handler.n_dofs() << " nodes, on "
+    mesh_line << "mesh: " << mesh.triangulation().n_global_active_cells() << " cells, on "
               << dealii::Utilities::MPI::n_mpi_processes(communicator) << " rank(s)";
     progress.say(mesh_line.str());
     fill();
     settle();
+    build_fluid();
     flow();
     write_summary_file();
+  }
+
+  void
+  PackedBed::balance_if_due()
+  {
+    if (time < next_balance)
+      return;
+    dem.balance(share_of_empty_cell);
+    next_balance = time + balance_interval;
+  }
+
+  void
+  PackedBed::build_fluid()
+  {
+    const double substeps = parameters.sweep.time_step / dem.substep();
+    dem.balance(particle_substeps_of_cell / std::max(1., substeps));
+    nodes.emplace(mesh);
+    fluid.emplace(parameters.flow,
+                  parameters.fluid.density,
+                  parameters.fluid.viscosity,
+                  *nodes,
+                  summary.costs);
+    exchange.emplace(parameters.filter_length(),
+                     Drag(parameters.drag,
+                          parameters.fluid,
+                          parameters.dem.particles.diameter,
+                          parameters.dem.particles.scale),
+                     *nodes,
+                     summary.costs);
   }
 
   void
@@ -103,9 +127,13 @@ namespace graupel
     Filling filling(parameters.filling, dem);
     progress.start_phase("fill", 0., 1.);
     while (filling.step())
-      progress.update(filling.progress());
+      {
+        time = filling.time();
+        balance_if_due();
+        progress.update(filling.progress());
+      }
     progress.finish_phase();
-    time += filling.time();
+    time = filling.time();
   }
 
   void
@@ -114,7 +142,10 @@ namespace graupel
     Settling settling(parameters.settling, dem);
     progress.start_phase("settle", 0., parameters.settling.maximum_time);
     while (settling.step())
-      progress.update(settling.time());
+      {
+        balance_if_due();
+        progress.update(settling.time());
+      }
     progress.finish_phase();
     time += settling.time();
     dem.synchronise();
@@ -166,7 +197,7 @@ namespace graupel
     SteadyMonitor steady(
       parameters.sweep.steady_window, parameters.sweep.steady_tolerance, dem.weight());
     case_rows.clear();
-    fluid.set_superficial_velocity(superficial_velocity);
+    fluid->set_superficial_velocity(superficial_velocity);
     for (unsigned int step = 0; step < n_steps; ++step)
       {
         step_fluid(duration / n_steps);
@@ -197,36 +228,38 @@ namespace graupel
   PackedBed::step_fluid(const double step)
   {
     dem.synchronise();
-    exchange.update(dem.store(), dem.particles());
-    last_report                    = fluid.step(exchange.medium(), step);
-    dem.particles().external_force = exchange.forces(
-      dem.particles(), fluid, parameters.fluid.density, parameters.dem.particles.gravity);
+    exchange->update(dem.store(), dem.particles());
+    last_report                    = fluid->step(exchange->medium(), step);
+    dem.particles().external_force = exchange->forces(dem.particles(),
+                                                      *fluid,
+                                                      parameters.fluid.density,
+                                                      parameters.dem.particles.gravity);
     dem.advance(step);
     time += step;
     summary.ledger.record(last_report.mass_imbalance,
-                          exchange.momentum_imbalance(),
-                          exchange.solid_volume_error());
+                          exchange->momentum_imbalance(),
+                          exchange->solid_volume_error());
   }
 
   MonitorRow
   PackedBed::monitor(const std::string &phase) const
   {
     MonitorRow row;
-    row.time  = time;
-    row.phase = phase;
-    row.pressure_drop =
-      fluid.mean_pressure(CylinderMesh::bottom) - fluid.mean_pressure(CylinderMesh::top);
+    row.time          = time;
+    row.phase         = phase;
+    row.pressure_drop = fluid->mean_pressure(CylinderMesh::bottom) -
+                        fluid->mean_pressure(CylinderMesh::top);
     row.bed_height   = observables.bed().height;
     row.bottom_force = dem.bottom_force();
     row.wall_force   = dem.wall_force();
-    row.fluid_force  = exchange.total_force()[2] + parameters.fluid.density *
-                                                    parameters.dem.particles.gravity *
-                                                    dem.solid_volume();
+    row.fluid_force  = exchange->total_force()[2] + parameters.fluid.density *
+                                                     parameters.dem.particles.gravity *
+                                                     dem.solid_volume();
     row.kinetic_energy     = dem.mean_kinetic_energy();
     row.maximum_speed      = dem.maximum_speed();
     row.mass_imbalance     = last_report.mass_imbalance;
-    row.momentum_imbalance = exchange.momentum_imbalance();
-    row.solid_volume_error = exchange.solid_volume_error();
+    row.momentum_imbalance = exchange->momentum_imbalance();
+    row.solid_volume_error = exchange->solid_volume_error();
     row.linear_iterations  = last_report.iterations;
     return row;
   }
@@ -237,7 +270,7 @@ namespace graupel
     if (parameters.output.interval <= 0. || time < next_output)
       return;
     const CostSheet::Scope timing(summary.costs, CostSheet::output);
-    files.add_fields(time, nodes, exchange.medium(), fluid);
+    files.add_fields(time, *nodes, exchange->medium(), *fluid);
     files.add_particles(time, dem);
     next_output = time + parameters.output.interval;
   }
@@ -266,7 +299,7 @@ namespace graupel
     result.deviation_from_ergun = result.pressure_drop / result.ergun_pressure_drop - 1.;
 
     const FlowFields fields{
-      nodes, exchange.medium().void_fraction, fluid.flux()[2], fluid.pressure()};
+      *nodes, exchange->medium().void_fraction, fluid->flux()[2], fluid->pressure()};
     const auto n_slabs = static_cast<unsigned int>(
       std::max(10l, std::lround(parameters.cylinder.height / parameters.mesh.cell_size)));
     const auto   axial = axial_profile(fields, n_slabs);
@@ -296,7 +329,7 @@ namespace graupel
     files.write_axial(number, axial, result);
     files.write_radial(number, radial, parameters.cylinder.diameter / 2.);
     files.write_mid_plane(number, mid_plane(fields, parameters.output.midplane_points));
-    files.add_fields(time, nodes, exchange.medium(), fluid);
+    files.add_fields(time, *nodes, exchange->medium(), *fluid);
     files.add_particles(time, dem);
     if (parameters.output.force_chains)
       files.add_contacts(time, dem);

@@ -168,3 +168,45 @@ TEST(FluidProperties, RefusesNonsense)
       EXPECT_THROW(fluid.check(), InputError);
     }
 }
+
+TEST(BedCorrelations, DeKlerkIsWhollyEmptyAtTheWallAndFlatFarFromIt)
+{
+  EXPECT_EQ(de_klerk_void_fraction(0., 0.36), 1.);
+  // 0.44 e^{-0.6 z} bounds what is left at z = 20: 3e-6.
+  EXPECT_NEAR(de_klerk_void_fraction(20., 0.36), 0.36, 3e-6);
+  // The two branches were fitted apart, yet meet in a dense random bed; a
+  // wrong digit in any coefficient opens a gap of 0.01 or so.
+  const double inner = de_klerk_void_fraction(0.637, 0.36);
+  const double outer = de_klerk_void_fraction(0.637 + 1e-12, 0.36);
+  std::cout << "branches: " << inner << " and " << outer << std::endl;
+  EXPECT_NEAR(inner, outer, 2e-3);
+  // Layers: dense half a diameter from the wall, loose at one, dense again.
+  EXPECT_LT(de_klerk_void_fraction(0.55, 0.36), 0.27);
+  EXPECT_GT(de_klerk_void_fraction(1., 0.36), 0.5);
+  EXPECT_LT(de_klerk_void_fraction(1.5, 0.36), 0.33);
+}
+
+TEST(BedCorrelations, BenyahiaAndONeillBetweenNarrowAndWide)
+{
+  // By hand: 0.39 + 1.74 / 51.14^2.
+  EXPECT_NEAR(benyahia_oneill_void_fraction(50.), 0.3906653157443224, 1e-15);
+  EXPECT_NEAR(benyahia_oneill_void_fraction(1e9), 0.390, 1e-12);
+  EXPECT_NEAR(benyahia_oneill_void_fraction(7.8125), 0.390 + 1.740 / 80.1495, 1e-6);
+}
+
+TEST(BedCorrelations, JanssenSaturates)
+{
+  // Hydrostatic without friction and near the top, w D / (4 mu K) deep down; the
+  // stress obeys d(stress)/d(depth) = w - 4 mu K stress / D.
+  const double w = 15e3, D = 0.025, mu_K = 0.2;
+  EXPECT_EQ(janssen_stress(w, D, 0., 0.1), w * 0.1);
+  EXPECT_EQ(janssen_stress(w, D, mu_K, 0.), 0.);
+  EXPECT_NEAR(janssen_stress(w, D, mu_K, 1e-9), w * 1e-9, 1e-7 * w * 1e-9);
+  EXPECT_NEAR(janssen_stress(w, D, mu_K, 10.), w * D / (4. * mu_K), 1e-12 * w);
+  const double h = 1e-5;
+  const double slope =
+    (janssen_stress(w, D, mu_K, 0.03 + h) - janssen_stress(w, D, mu_K, 0.03 - h)) /
+    (2. * h);
+  // Central differences: h^2 / 6 of the third derivative, 2e-8 of w.
+  EXPECT_NEAR(slope, w - 4. * mu_K / D * janssen_stress(w, D, mu_K, 0.03), 1e-6 * w);
+}

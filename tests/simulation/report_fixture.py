@@ -115,6 +115,13 @@ def write_run(directory, scale=1.0, vessel=VESSEL, steps=60):
         write_csv(directory / f"profiles-{number:02d}.csv", run_output.PROFILE_COLUMNS, rows)
         rows = [[distance, 0.4, 0.3] for distance in np.linspace(0.0, 0.0125, 20)]
         write_csv(directory / f"radial-{number:02d}.csv", run_output.RADIAL_COLUMNS, rows)
+    rows = [[distance, 0.4, 0.41] for distance in np.linspace(0.0, 0.0125, 50)]
+    write_csv(directory / "bed-radial.csv", run_output.BED_COLUMNS["bed-radial"], rows)
+    rows = [
+        [height, 0.48 - 3.0 * height, 0.3 - 2.0 * height, 0.18 - height, 600.0, 590.0, 0.1]
+        for height in np.linspace(0.0, 0.15, 20)
+    ]
+    write_csv(directory / "bed-janssen.csv", run_output.BED_COLUMNS["bed-janssen"], rows)
     rows = [
         [x, height, 0.4 if height < HEIGHT else 1.0, 0.5, 100.0]
         for x in np.linspace(-0.0125, 0.0125, 11)

@@ -53,8 +53,14 @@ namespace graupel
     void
     sort_if_needed()
     {
-      if (appended * 20 < n)
-        return;
+      if (appended * 20 >= n)
+        sort();
+    }
+
+    /** Sorts by the first row, then the second. Only while there are no fresh ones. */
+    void
+    sort()
+    {
       std::vector<std::pair<std::uint64_t, std::uint32_t>> order(n);
       for (std::size_t k = 0; k < n; ++k)
         order[k] = {(static_cast<std::uint64_t>(first(k)) << 32) | second(k), k};
@@ -65,6 +71,13 @@ namespace graupel
         sorted.add(first(k), second(k), springs(k));
       *this    = std::move(sorted);
       appended = 0;
+    }
+
+    void
+    clear()
+    {
+      blocks.clear();
+      n = fresh = appended = 0;
     }
 
     /** Adds an old contact; only while there are no fresh ones. */

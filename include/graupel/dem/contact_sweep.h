@@ -124,7 +124,7 @@ namespace graupel
     TouchingRows touching_rows(const unsigned int n_rows) const;
 
     /** Takes over from a new list which rows are near walls. */
-    void watch_walls(const VerletList &list);
+    void watch_walls(const VerletList &list, const std::vector<Wall> &walls);
 
     /**
      * Computes all contacts: those of the last sweep and the pairs of @p list
@@ -193,14 +193,46 @@ namespace graupel
                      const double        second_density,
                      const double        dt);
 
+    template <class Surface>
+    void begin_wall(const ParticleArrays &particles,
+                    const Surface        &surface,
+                    const unsigned int    wall);
+
     template <class NormalLaw, class RollingLaw, class Surface>
-    void sweep_wall(ContactList        &contacts,
-                    ParticleArrays     &particles,
-                    const unsigned int  wall,
-                    const Surface      &surface,
-                    const PairMaterial &material,
-                    const double        density,
-                    const double        dt);
+    void sweep_wall(ParticleArrays    &particles,
+                    const unsigned int wall,
+                    const Surface     &surface,
+                    const Materials   &materials,
+                    const double       dt);
+
+    template <class NormalLaw, class RollingLaw, class Surface>
+    void sweep_wall_contacts(ContactList        &contacts,
+                             ParticleArrays     &particles,
+                             const unsigned int  wall,
+                             const Surface      &surface,
+                             const PairMaterial &material,
+                             const double        density,
+                             const double        dt);
+
+    // A wall of triangles, one contact after the other: contacts are found anew,
+    // and those that were there before keep their springs.
+    template <class NormalLaw, class RollingLaw>
+    void sweep_surface(ParticleArrays    &particles,
+                       const unsigned int wall,
+                       const SurfaceWall &surface,
+                       const Materials   &materials,
+                       const double       dt);
+
+    template <class NormalLaw, class RollingLaw>
+    void sweep_surface_contact(ParticleArrays           &particles,
+                               const std::uint32_t       row,
+                               const SurfaceMesh::Touch &touch,
+                               const unsigned int        wall,
+                               const Triple<double>     &wall_velocity,
+                               const PairMaterial       &material,
+                               const double              dt,
+                               const bool                is_fresh,
+                               Springs<double>          &springs);
 
     // Sets aside the contacts that ended, and the first that fails.
     void examine(const LaneMask    &ended,
@@ -228,11 +260,12 @@ namespace graupel
     // By types, first * n_types + second; and wall * n_types + type.
     std::vector<ContactList> pair_lists;
     std::vector<ContactList> wall_lists;
-    // For each wall the rows near it that do not touch it.
+    // For each wall the rows near it that do not touch it; all for a surface.
     std::vector<std::vector<std::uint32_t>>  idle_rows;
     std::vector<std::array<std::int64_t, 3>> loads;
     // Contacts of the list at work that have ended, in ascending order.
-    std::vector<std::uint32_t> ended;
+    std::vector<std::uint32_t>      ended;
+    std::vector<SurfaceMesh::Touch> touches;
 
     std::int64_t failed_first   = 0;
     std::int64_t failed_partner = 0;

@@ -2,13 +2,16 @@
 #define graupel_dem_walls_h
 
 #include <graupel/dem/lanes.h>
+#include <graupel/dem/surface_mesh.h>
 #include <graupel/dem/triple.h>
 #include <graupel/mesh/cylinder.h>
 
+#include <deal.II/base/parameter_handler.h>
 #include <deal.II/base/point.h>
 
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <variant>
 #include <vector>
@@ -68,28 +71,43 @@ namespace graupel
     }
   };
 
-  /** One wall of the vessel, exact rather than made of facets. */
+  /** An end of the vessel through which particles leave, or come in again. */
+  struct NoWall
+  {
+    Triple<double> velocity = {};
+
+    template <class Real>
+    WallGeometry<Real>
+    at(const Triple<Real> &) const
+    {
+      return {std::numeric_limits<double>::infinity(), {Real(0.), Real(0.), Real(1.)}};
+    }
+  };
+
+  /** A wall made of triangles, in which a sphere can touch several facets. */
+  struct SurfaceWall
+  {
+    SurfaceMesh    mesh;
+    Triple<double> velocity = {};
+  };
+
+  /** One wall of the vessel; the analytic ones are exact. */
   struct Wall
   {
     /** "wall", "bottom", "top", as in the output. */
-    std::string                       name;
-    std::variant<PlaneWall, TubeWall> shape;
+    std::string                                            name;
+    std::variant<PlaneWall, TubeWall, NoWall, SurfaceWall> shape;
 
-    /** Slow; the contact loop dispatches once a wall. */
-    WallGeometry<double>
-    at(const Triple<double> &x) const
-    {
-      return std::visit([&](const auto &surface) { return surface.at(x); }, shape);
-    }
+    /**
+     * Where a sphere touches: for a surface at this @p facet, as far as it is
+     * closer than @p reach [m]. Slow; the contact loop dispatches once a wall.
+     */
+    WallGeometry<double> at(const Triple<double> &x,
+                            const unsigned int    facet = 0,
+                            const double          reach = 0.) const;
 
     /** Whether the wall is closer to @p x than @p distance [m]. */
-    bool
-    is_near(const dealii::Point<3> &x, const double distance) const
-    {
-      return std::visit(
-        [&](const auto &surface) { return surface.at(triple(x)).distance < distance; },
-        shape);
-    }
+    bool is_near(const dealii::Point<3> &x, const double distance) const;
 
     const Triple<double> &
     velocity() const
@@ -119,14 +137,66 @@ namespace graupel
   /** The lateral wall, the bottom z = 0 and the top z = height of a cylinder. */
   std::vector<Wall> vessel_walls(const Cylinder &cylinder);
 
+  /** The walls as the prm file tells them. */
+  struct WallParameters
+  {
+    /** "closed", "open" (particles leave) or "periodic". */
+    std::string bottom = "closed";
+    std::string top    = "closed";
+    /** Planes: point [m], normal out of the vessel, optional velocity [m/s]. */
+    std::string planes;
+    /** STL files, and the length of their unit [m]. */
+    std::string surfaces;
+    double      surface_unit = 1e-3;
+
+    /** Declares the section "Walls". */
+    void declare(dealii::ParameterHandler &prm);
+    void check() const;
+
+    bool
+    is_periodic() const
+    {
+      return bottom == "periodic";
+    }
+
+    bool
+    is_open() const
+    {
+      return bottom == "open" || top == "open";
+    }
+
+    /**
+     * The walls of the vessel in the order of VesselWall, then the planes, then
+     * the surfaces. Throws InputError for what cannot be read.
+     */
+    std::vector<Wall> walls(const Cylinder &cylinder) const;
+  };
+
+  /** Walls that a vessel can have, beyond any use. */
+  constexpr std::int64_t most_walls = 1024;
+
   /**
-   * The partner id that stands for wall number @p wall in the table of springs;
-   * negative, so that it never is a particle's.
+   * The partner id that stands for wall number @p wall in a contact, or for a facet
+   * of it; negative, so that it never is a particle's.
    */
   constexpr std::int64_t
-  wall_id(const unsigned int wall)
+  wall_id(const unsigned int wall, const unsigned int facet = 0)
   {
-    return -1 - static_cast<std::int64_t>(wall);
+    return -1 - (static_cast<std::int64_t>(wall) + most_walls * facet);
+  }
+
+  /** The wall that a negative partner id names. */
+  constexpr unsigned int
+  wall_of(const std::int64_t partner)
+  {
+    return (-1 - partner) % most_walls;
+  }
+
+  /** The facet that a negative partner id names. */
+  constexpr unsigned int
+  facet_of(const std::int64_t partner)
+  {
+    return (-1 - partner) / most_walls;
   }
 } // namespace graupel
 

@@ -6,6 +6,8 @@
 #include <graupel/simulation/run_parameters.h>
 #include <graupel/simulation/summary.h>
 
+#include <optional>
+
 namespace graupel
 {
   /**
@@ -30,6 +32,8 @@ namespace graupel
     void run();
 
   private:
+    void balance_if_due();
+    void build_fluid();
     void fill();
     void settle();
     void flow();
@@ -48,14 +52,18 @@ namespace graupel
 
     Summary        summary;
     CylinderMesh   mesh;
-    NodalSpace     nodes;
     Dem            dem;
     BedObservables observables;
-    FlowSolver     fluid;
-    Exchange       exchange;
+
+    // What lives on the mesh; built when the bed is ready and the mesh divided
+    // among the ranks for the last time.
+    std::optional<NodalSpace> nodes;
+    std::optional<FlowSolver> fluid;
+    std::optional<Exchange>   exchange;
 
     double                  time = 0.; // simulated, since the run began [s]
     double                  next_output;
+    double                  next_balance = 0.;
     FlowSolver::Report      last_report;
     std::vector<MonitorRow> case_rows;
     const double            started;

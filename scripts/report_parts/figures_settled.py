@@ -1,0 +1,71 @@
+"""Figures of the settled bed before the flow: packing at the wall, and what carries the weight."""
+
+import numpy as np
+
+from .style import BLACK, BLUE, GREY, MILLI, ORANGE, VERMILLION, NothingToShow, new_figure
+
+
+def table_of(run, name):
+    """The table NAME.csv of the run; throws NothingToShow without it."""
+    table = run.bed.get(name)
+    if table is None:
+        raise NothingToShow(f"{name}.csv was not found, or holds no rows")
+    return table
+
+
+def bed_radial(run, paper):
+    """Void fraction against the distance from the wall, beside de Klerk's correlation."""
+    table = table_of(run, "bed-radial")
+    diameter = run.number("bed", "particle_diameter")
+    in_diameters = diameter is not None and diameter > 0.0
+    distance = table["wall_distance"] / diameter if in_diameters else table["wall_distance"] * MILLI
+    figure = new_figure(height=3.4)
+    axes = figure.subplots()
+    axes.plot(distance, table["void_fraction"], color=BLUE, label="settled bed")
+    axes.plot(distance, table["de_klerk"], "--", color=VERMILLION, linewidth=1.2, label="de Klerk")
+    unit = "particle diameters [-]" if in_diameters else "[mm]"
+    axes.set_xlabel(f"distance from the wall {unit}")
+    axes.set_ylabel("void fraction [-]")
+    axes.set_xlim(left=0.0)
+    axes.set_ylim(0.0, 1.0)
+    axes.legend()
+    return figure
+
+
+def bed_janssen(run, paper):
+    """Stress and loads against the height of the bed."""
+    table = table_of(run, "bed-janssen")
+    z = table["z"] * MILLI
+    figure = new_figure(height=3.8)
+    left, right = figure.subplots(1, 2, sharey=True)
+    load = np.where(table["load"] > 0.0, table["load"], np.nan)
+    area = np.nanmedian(load / table["stress"])
+    left.plot(table["weight"] / area, z, ":", color=GREY, label="without a wall")
+    left.plot(table["stress"], z, color=BLUE, label="load over cross-section")
+    friction = table["mobilised_friction"][0]
+    left.plot(
+        table["janssen_stress"],
+        z,
+        "--",
+        color=VERMILLION,
+        linewidth=1.2,
+        label=f"Janssen, $\\mu K$ = {friction:.3f}".replace("-", "\u2212"),
+    )
+    left.set_xlabel("vertical stress [Pa]")
+    left.set_ylabel("height over the bottom z [mm]")
+    right.plot(table["weight"], z, ":", color=GREY, label="weight above")
+    right.plot(table["load"], z, color=BLUE, label="through the plane")
+    right.plot(table["wall_load"], z, color=ORANGE, label="by the wall above")
+    right.plot(
+        (table["load"] + table["wall_load"])[::8],
+        z[::8],
+        "x",
+        color=BLACK,
+        markersize=4,
+        label="both",
+    )
+    right.set_xlabel("vertical force [N]")
+    for axes in (left, right):
+        axes.set_ylim(bottom=0.0)
+        axes.legend(loc="upper right", fontsize=8)
+    return figure
