@@ -186,6 +186,14 @@ namespace graupel
     return contacts;
   }
 
+  void
+  ContactSweep::clear()
+  {
+    for (auto *lists : {&pair_lists, &wall_lists})
+      for (auto &list : *lists)
+        list.clear();
+  }
+
   std::vector<LooseContact>
   ContactSweep::renumber(const std::vector<std::int64_t>  &old_ids,
                          const std::vector<std::uint32_t> &new_row)
@@ -237,26 +245,56 @@ namespace graupel
     for (std::uint32_t row = 0; row < particles.n_rows(); ++row)
       rows.emplace_back(particles.id[row], row);
     std::sort(rows.begin(), rows.end());
-    const auto row_of = [&](const std::int64_t id) {
-      const auto found =
-        std::lower_bound(rows.begin(), rows.end(), std::make_pair(id, 0u));
-      return found != rows.end() && found->first == id ? found->second : no_row;
+    // Of the rows of one id (periodic ends make images) the one nearest to a place.
+    const auto nearest = [&](const std::int64_t id, const std::uint32_t other) {
+      auto row = std::lower_bound(rows.begin(), rows.end(), std::make_pair(id, 0u));
+      std::uint32_t best  = no_row;
+      double        least = std::numeric_limits<double>::infinity();
+      for (; row != rows.end() && row->first == id; ++row)
+        {
+          const double distance = particles.body[row->second].position.distance_square(
+            particles.body[other].position);
+          if (distance < least)
+            {
+              least = distance;
+              best  = row->second;
+            }
+        }
+      return best;
+    };
+    const auto own_row = [&](const std::int64_t id) {
+      const auto row = std::lower_bound(rows.begin(), rows.end(), std::make_pair(id, 0u));
+      return row != rows.end() && row->first == id && row->second < particles.n_owned
+               ? row->second
+               : no_row;
     };
 
     for (const auto &contact : contacts)
       {
-        const auto i = row_of(contact.first);
+        const auto i = own_row(contact.first);
         if (contact.second < 0)
           {
             wall_lists[wall_of(contact.second) * n_types + particles.type[i]].add(
               i, facet_of(contact.second), contact.springs);
             continue;
           }
-        const auto j = row_of(contact.second);
-        if (i == no_row || j == no_row ||
-            (i >= particles.n_owned && j >= particles.n_owned))
-          continue;
-        pair_list(particles, {i, j}).add(i, j, contact.springs);
+        // Each own partner touches the nearest copy of the other; two own ones each
+        // other, or each an image.
+        const auto j = own_row(contact.second);
+        if (i != no_row)
+          {
+            const auto partner = nearest(contact.second, i);
+            if (partner != no_row)
+              pair_list(particles, {i, partner}).add(i, partner, contact.springs);
+            if (partner == j)
+              continue;
+          }
+        if (j != no_row)
+          {
+            const auto partner = nearest(contact.first, j);
+            if (partner != no_row)
+              pair_list(particles, {partner, j}).add(partner, j, contact.springs);
+          }
       }
   }
 

@@ -44,11 +44,14 @@ namespace graupel
     , longest_substep(input.substep())
     , skin(input.contact.skin * 2. * input.largest_radius())
     , near_skin(std::min(0.5 * skin, relative_near_skin * input.largest_radius()))
-    , walls(vessel_walls(mesh.cylinder()))
+    , walls(input.walls.walls(mesh.cylinder()))
     , materials(input.materials(false, walls.size()))
     , gravity({0., 0., -input.particles.gravity})
     , particle_store(mesh)
-    , halo(mesh.cylinder(), 2. * input.largest_radius() + skin, mesh.communicator())
+    , halo(mesh.cylinder(),
+           2. * input.largest_radius() + skin,
+           input.walls.is_periodic(),
+           mesh.communicator())
     , list(skin, near_skin)
     , contacts(input.normal_law(),
                input.rolling_law(),
@@ -87,7 +90,7 @@ namespace graupel
         total_volume += volume;
         total_mass += materials.density[particle.type] * volume;
       }
-    if (mpi::n_mpi_processes(communicator()) > 1)
+    if (halo.is_needed())
       {
         auto loose = contacts.renumber(old_ids, same_rows(old_n_owned));
         halo.rebuild(arrays);
@@ -100,8 +103,71 @@ namespace graupel
   Dem::synchronise()
   {
     CostSheet::Scope scope(costs, CostSheet::neighbor);
-    const auto       old_ids = arrays.id;
-    follow(old_ids, particle_store.migrate(arrays, contacts_of(), {}));
+    wrap();
+    const auto departed = departed_rows();
+    const auto old_ids  = arrays.id;
+    follow(old_ids, particle_store.migrate(arrays, contacts_of(), departed));
+  }
+
+  void
+  Dem::wrap()
+  {
+    if (!input.walls.is_periodic())
+      return;
+    const double height  = mesh.cylinder().height;
+    const auto   outside = [&](const unsigned int i) {
+      const double z = arrays.body[i].position[2];
+      return z < 0. || z >= height;
+    };
+    unsigned int n_outside = 0;
+    for (unsigned int i = 0; i < arrays.n_owned; ++i)
+      n_outside += outside(i);
+    if (mpi::sum(n_outside, communicator()) == 0)
+      return;
+
+    // Pairs become neighbours through the end, or no more: find all partners anew.
+    auto loose = contacts.contacts_of(arrays, same_rows(arrays.n_owned));
+    contacts.clear();
+    for (unsigned int i = 0; i < arrays.n_owned; ++i)
+      if (outside(i))
+        arrays.body[i].position[2] += arrays.body[i].position[2] < 0. ? height : -height;
+    halo.rebuild(arrays);
+    contacts.add(arrays, std::move(loose));
+    list_is_valid = false;
+  }
+
+  std::vector<std::uint32_t>
+  Dem::departed_rows()
+  {
+    std::vector<std::uint32_t> departed;
+    if (!input.walls.is_open())
+      return departed;
+    for (unsigned int i = 0; i < arrays.n_owned; ++i)
+      {
+        const double z = arrays.body[i].position[2];
+        if ((z < 0. && input.walls.bottom == "open") ||
+            (z > mesh.cylinder().height && input.walls.top == "open"))
+          departed.push_back(i);
+      }
+    const auto n_gone =
+      mpi::sum(static_cast<unsigned int>(departed.size()), communicator());
+    n_departed_so_far += n_gone;
+    if (n_gone == 0)
+      return departed;
+
+    // What is left, in an order of sum that no number of ranks changes.
+    const double largest = sphere_volume(input.largest_radius());
+    const double densest =
+      *std::max_element(materials.density.begin(), materials.density.end());
+    ExactSum volume(largest), mass(densest * largest);
+    for (const auto i : departed)
+      {
+        volume.add(sphere_volume(arrays.body[i].radius));
+        mass.add(arrays.mass[i]);
+      }
+    total_volume -= volume.total(communicator());
+    total_mass -= mass.total(communicator());
+    return departed;
   }
 
   bool
@@ -197,8 +263,23 @@ namespace graupel
     wall_loads = contacts.wall_loads(communicator());
     for (auto &load : wall_loads)
       load /= std::max(1u, n);
+    if (input.walls.is_open())
+      remove_departed();
     // A failure in the last substep was not yet told to the other ranks.
     throw_together(contacts.failure(arrays, walls), communicator());
+  }
+
+  void
+  Dem::remove_departed()
+  {
+    unsigned int n_outside = 0;
+    for (unsigned int i = 0; i < arrays.n_owned; ++i)
+      {
+        const double z = arrays.body[i].position[2];
+        n_outside += z < 0. || z > mesh.cylinder().height;
+      }
+    if (mpi::sum(n_outside, communicator()) > 0)
+      synchronise();
   }
 
   void
@@ -225,6 +306,7 @@ namespace graupel
     }
     if (speed_square == infinity)
       throw_together(first_problem(), communicator());
+    walls_moved_since_list += dt * wall_speed;
     const double moved = dt * (std::sqrt(speed_square) + wall_speed);
     moved_since_list += moved;
     moved_since_sort += moved;
@@ -245,8 +327,9 @@ namespace graupel
       {
         // The bound adds up the fastest particle of each substep.
         CostSheet::Scope scope(costs, CostSheet::neighbor);
-        moved_since_list = mpi::max(list.largest_move(arrays), communicator());
-        list_is_valid    = moved_since_list < 0.8 * half_skin;
+        moved_since_list =
+          mpi::max(list.largest_move(arrays), communicator()) + walls_moved_since_list;
+        list_is_valid = moved_since_list < 0.8 * half_skin;
       }
     if (!list_is_valid)
       return list_neighbors();
@@ -277,7 +360,8 @@ namespace graupel
   void
   Dem::list_neighbors()
   {
-    if (mpi::n_mpi_processes(communicator()) > 1)
+    wrap();
+    if (halo.is_needed())
       {
         CostSheet::Scope scope(costs, CostSheet::halo);
         auto             loose = contacts.renumber(arrays.id, same_rows(arrays.n_owned));
@@ -288,9 +372,10 @@ namespace graupel
     contacts.sort();
     list.build(arrays, walls, contacts.touching_rows(arrays.n_rows()));
     contacts.watch_walls(list, walls);
-    moved_since_list = mpi::max(list.largest_move(arrays), communicator());
-    moved_since_sort = 0.;
-    list_is_valid    = true;
+    moved_since_list       = mpi::max(list.largest_move(arrays), communicator());
+    moved_since_sort       = 0.;
+    walls_moved_since_list = 0.;
+    list_is_valid          = true;
     ++list_builds;
   }
 

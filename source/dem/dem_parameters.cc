@@ -245,6 +245,7 @@ namespace graupel
   {
     particles.declare(prm);
     contact.declare(prm);
+    walls.declare(prm);
   }
 
   void
@@ -252,6 +253,11 @@ namespace graupel
   {
     particles.check(cylinder);
     contact.check();
+    walls.check();
+    require(!walls.is_periodic() || cylinder.height > 6. * largest_radius(),
+            "Walls/top",
+            "a periodic vessel must be higher than three particles, or one would touch "
+            "its own image");
     const double longest = largest_time_fraction * characteristic_time();
     require(contact.substep <= longest,
             "Contact/substep",

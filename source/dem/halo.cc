@@ -16,11 +16,17 @@ namespace graupel
     constexpr unsigned int n_identities = 2;
   } // namespace
 
-  Halo::Halo(const Cylinder &cylinder, const double reach, MPI_Comm communicator)
+  Halo::Halo(const Cylinder &cylinder,
+             const double    reach,
+             const bool      periodic,
+             MPI_Comm        communicator)
     : communicator(communicator)
     , n_ranks(dealii::Utilities::MPI::n_mpi_processes(communicator))
     , corner(-cylinder.diameter / 2., -cylinder.diameter / 2., 0.)
+    , height(cylinder.height)
     , bin_size(reach)
+    , shifts(periodic ? std::vector<double>{0., height, -height}
+                      : std::vector<double>{0.})
     , n_bins{}
   {
     const std::array<double, 3> extent{
@@ -59,58 +65,83 @@ namespace graupel
     return all;
   }
 
+  std::vector<unsigned char>
+  Halo::bins_near(const unsigned char *occupied) const
+  {
+    std::vector<unsigned char> near(n_bins[0] * n_bins[1] * n_bins[2], 0);
+    const auto                 around = [](const int x, const unsigned int n) {
+      return std::make_pair(std::max(x - 1, 0), std::min(x + 1, static_cast<int>(n) - 1));
+    };
+    const int n[3] = {int(n_bins[0]), int(n_bins[1]), int(n_bins[2])};
+    for (int z = 0, b = 0; z < n[2]; ++z)
+      for (int y = 0; y < n[1]; ++y)
+        for (int x = 0; x < n[0]; ++x, ++b)
+          if (occupied[b])
+            {
+              const auto [x0, x1] = around(x, n[0]);
+              const auto [y0, y1] = around(y, n[1]);
+              const auto [z0, z1] = around(z, n[2]);
+              for (int w = z0; w <= z1; ++w)
+                for (int v = y0; v <= y1; ++v)
+                  for (int u = x0; u <= x1; ++u)
+                    near[(w * n[1] + v) * n[0] + u] = 1;
+            }
+    return near;
+  }
+
   void
   Halo::choose_rows(const ParticleArrays &particles)
   {
     const auto         occupied = occupied_bins(particles);
     const unsigned int n        = n_bins[0] * n_bins[1] * n_bins[2];
-    const int          me       = dealii::Utilities::MPI::this_mpi_process(communicator);
+    const unsigned int me       = dealii::Utilities::MPI::this_mpi_process(communicator);
 
     neighbors.clear();
-    std::vector<unsigned char> near(n);
     for (unsigned int rank = 0; rank < n_ranks; ++rank)
       {
-        if (static_cast<int>(rank) == me)
-          continue;
-        std::fill(near.begin(), near.end(), 0);
-        for (int z = 0, b = 0; z < int(n_bins[2]); ++z)
-          for (int y = 0; y < int(n_bins[1]); ++y)
-            for (int x = 0; x < int(n_bins[0]); ++x, ++b)
-              if (occupied[rank * n + b])
-                for (int c = std::max(z - 1, 0); c <= std::min(z + 1, int(n_bins[2]) - 1);
-                     ++c)
-                  for (int v = std::max(y - 1, 0);
-                       v <= std::min(y + 1, int(n_bins[1]) - 1);
-                       ++v)
-                    for (int u = std::max(x - 1, 0);
-                         u <= std::min(x + 1, int(n_bins[0]) - 1);
-                         ++u)
-                      near[(c * n_bins[1] + v) * n_bins[0] + u] = 1;
-
-        Neighbor neighbor;
-        neighbor.rank = rank;
-        for (unsigned int i = 0; i < particles.n_owned; ++i)
-          if (near[bin(particles.body[i].position)])
-            neighbor.rows.push_back(i);
-        neighbors.push_back(std::move(neighbor));
+        const auto near = bins_near(&occupied[rank * n]);
+        for (unsigned int shift = 0; shift < shifts.size(); ++shift)
+          {
+            if (rank == me && shift == 0)
+              continue;
+            Neighbor neighbor;
+            neighbor.rank  = rank;
+            neighbor.shift = shift;
+            for (unsigned int i = 0; i < particles.n_owned; ++i)
+              {
+                auto x = particles.body[i].position;
+                x[2] += shifts[shift];
+                const bool outside =
+                  shift > 0 && (x[2] < -bin_size || x[2] > height + bin_size);
+                if (!outside && near[bin(x)])
+                  neighbor.rows.push_back(i);
+              }
+            neighbors.push_back(std::move(neighbor));
+          }
       }
   }
 
   void
   Halo::exchange_identities(ParticleArrays &particles)
   {
-    std::vector<int> n_sent(n_ranks, 0), n_received(n_ranks, 0);
+    const unsigned int n_shifts = shifts.size();
+    std::vector<int>   n_sent(n_ranks * n_shifts, 0), n_received(n_ranks * n_shifts, 0);
     for (const auto &neighbor : neighbors)
-      n_sent[neighbor.rank] = neighbor.rows.size();
-    int ierr = MPI_Alltoall(
-      n_sent.data(), 1, MPI_INT, n_received.data(), 1, MPI_INT, communicator);
+      n_sent[neighbor.rank * n_shifts + neighbor.shift] = neighbor.rows.size();
+    int ierr = MPI_Alltoall(n_sent.data(),
+                            n_shifts,
+                            MPI_INT,
+                            n_received.data(),
+                            n_shifts,
+                            MPI_INT,
+                            communicator);
     AssertThrowMPI(ierr);
 
     unsigned int n_rows = particles.n_owned;
     for (auto &neighbor : neighbors)
       {
         neighbor.first_ghost = n_rows;
-        neighbor.n_ghosts    = n_received[neighbor.rank];
+        neighbor.n_ghosts    = n_received[neighbor.rank * n_shifts + neighbor.shift];
         n_rows += neighbor.n_ghosts;
       }
     particles.resize(n_rows);
@@ -129,12 +160,12 @@ namespace graupel
                             neighbor.outgoing.size(),
                             MPI_DOUBLE,
                             neighbor.rank,
-                            identity_tag,
+                            identity_tag + 10 * neighbor.shift,
                             neighbor.incoming.data(),
                             neighbor.incoming.size(),
                             MPI_DOUBLE,
                             neighbor.rank,
-                            identity_tag,
+                            identity_tag + 10 * neighbor.shift,
                             communicator,
                             MPI_STATUS_IGNORE);
         AssertThrowMPI(ierr);
@@ -151,7 +182,7 @@ namespace graupel
   void
   Halo::rebuild(ParticleArrays &particles)
   {
-    if (n_ranks == 1)
+    if (!is_needed())
       return;
     free_requests();
     choose_rows(particles);
@@ -179,7 +210,7 @@ namespace graupel
                                  neighbor.incoming.size(),
                                  MPI_DOUBLE,
                                  neighbor.rank,
-                                 refresh_tag,
+                                 refresh_tag + 10 * neighbor.shift,
                                  communicator,
                                  &receive);
         AssertThrowMPI(ierr);
@@ -187,7 +218,7 @@ namespace graupel
                              neighbor.outgoing.size(),
                              MPI_DOUBLE,
                              neighbor.rank,
-                             refresh_tag,
+                             refresh_tag + 10 * neighbor.shift,
                              communicator,
                              &send);
         AssertThrowMPI(ierr);
@@ -215,6 +246,7 @@ namespace graupel
         for (const unsigned int i : neighbor.rows)
           {
             std::memcpy(out, &p.body[i], sizeof(Body));
+            out[2] += shifts[neighbor.shift];
             out += n_numbers;
           }
       }

@@ -166,7 +166,8 @@ namespace graupel
     // Of two movers the lower row finds the pair, and of two ghosts none.
     const bool ghost   = i >= particles.n_owned;
     const auto propose = [&](const std::uint32_t j) {
-      if (j == i || (moves[j] && j < i) || (ghost && j >= particles.n_owned))
+      if (particles.id[j] == particles.id[i] || (moves[j] && j < i) ||
+          (ghost && j >= particles.n_owned))
         return;
       // A contact that comes apart in this very substep still is one.
       if (touching.contains(i, j))

@@ -105,6 +105,9 @@ namespace graupel
     std::vector<LooseContact> contacts_of(const ParticleArrays             &particles,
                                           const std::vector<std::uint32_t> &rows) const;
 
+    /** Forgets all contacts. */
+    void clear();
+
     /**
      * Follows a new numbering of the rows: @p new_row of an old own row, or no_row
      * if it has gone; ghosts have no number any more. Returns the contacts between

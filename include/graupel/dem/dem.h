@@ -155,6 +155,20 @@ namespace graupel
       return contacts.states(arrays, walls, materials, of_ghosts);
     }
 
+    /** Particles that have left through open ends, on all ranks. */
+    unsigned int
+    n_departed() const
+    {
+      return n_departed_so_far;
+    }
+
+    /** The walls of the vessel, where they are now. */
+    const std::vector<Wall> &
+    vessel() const
+    {
+      return walls;
+    }
+
     /** The longest substep in use [s]. */
     double
     substep() const
@@ -184,7 +198,7 @@ namespace graupel
 
     /** Force on the wall of this number, mean of the last advance() [N]. */
     const dealii::Tensor<1, 3> &
-    force_on(const VesselWall wall) const
+    force_on(const unsigned int wall) const
     {
       return wall_loads[wall];
     }
@@ -204,12 +218,15 @@ namespace graupel
     }
 
   private:
-    Integration               integration(const double dt) const;
-    void                      substep_by(const double dt, const bool first);
-    void                      update_neighbors();
-    std::string               first_problem() const;
-    void                      list_neighbors();
-    ParticleStore::ContactsOf contacts_of() const;
+    Integration                integration(const double dt) const;
+    void                       substep_by(const double dt, const bool first);
+    void                       update_neighbors();
+    std::string                first_problem() const;
+    void                       wrap();
+    void                       remove_departed();
+    std::vector<std::uint32_t> departed_rows();
+    void                       list_neighbors();
+    ParticleStore::ContactsOf  contacts_of() const;
     void follow(const std::vector<std::int64_t> &old_ids, ParticleStore::Moves moves);
     bool has_external_forces() const;
 
@@ -236,10 +253,12 @@ namespace graupel
 
     // Bounds on how far any particle of any rank has gone since the list was
     // made, and since its pairs were sorted into near and far ones.
-    double       moved_since_list = 0.;
-    double       moved_since_sort = 0.;
-    bool         list_is_valid    = false;
-    unsigned int list_builds      = 0;
+    double       moved_since_list       = 0.;
+    double       moved_since_sort       = 0.;
+    double       walls_moved_since_list = 0.;
+    bool         list_is_valid          = false;
+    unsigned int list_builds            = 0;
+    unsigned int n_departed_so_far      = 0;
   };
 } // namespace graupel
 

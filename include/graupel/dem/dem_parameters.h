@@ -2,6 +2,7 @@
 #define graupel_dem_dem_parameters_h
 
 #include <graupel/dem/materials.h>
+#include <graupel/dem/walls.h>
 #include <graupel/mesh/cylinder.h>
 
 #include <deal.II/base/parameter_handler.h>
@@ -81,6 +82,7 @@ namespace graupel
   {
     ParticleParameters particles;
     ContactParameters  contact;
+    WallParameters     walls;
 
     void declare(dealii::ParameterHandler &prm);
     /** Throws InputError for values that cannot be, alone or together. */
