@@ -217,6 +217,11 @@ namespace graupel
                              const double        density,
                              const double        dt);
 
+    void sweep_surfaces(ParticleArrays          &particles,
+                        const std::vector<Wall> &walls,
+                        const Materials         &materials,
+                        const double             dt);
+
     // A wall of triangles, one contact after the other: contacts are found anew,
     // and those that were there before keep their springs.
     template <class NormalLaw, class RollingLaw>
