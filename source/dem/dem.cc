@@ -14,10 +14,10 @@ namespace graupel
     constexpr double infinity = std::numeric_limits<double>::infinity();
 
     // Skin of the near pairs, over the radius of a particle.
-    constexpr double relative_near_skin = 0.1;
+    constexpr double relative_near_skin = 0.25;
 
     // Ranks may differ by this much in their particles.
-    constexpr double tolerated_imbalance = 0.05;
+    constexpr double tolerated_imbalance = 0.1;
 
     std::vector<std::uint32_t>
     same_rows(const unsigned int n)

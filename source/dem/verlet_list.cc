@@ -14,7 +14,7 @@ namespace graupel
 
     // Who has gone this part of the skin is listed anew along with those that
     // must be, so that the next time is later.
-    constexpr double moving_part = 0.25;
+    constexpr double moving_part = 0.05;
   } // namespace
 
   VerletList::VerletList(const double skin, const double near_skin)
@@ -29,6 +29,7 @@ namespace graupel
     near.clear();
     far.clear();
     n_listed = 0;
+    wall_rows.clear();
   }
 
   void
@@ -36,7 +37,7 @@ namespace graupel
                     const std::vector<Wall> &walls,
                     const TouchingRows      &touching)
   {
-    wall_rows.assign(walls.size(), {});
+    wall_rows.resize(walls.size());
     choose_movers(particles);
     drop_pairs_of_movers();
     n_listed = particles.n_owned;
@@ -49,14 +50,44 @@ namespace graupel
     sort_into_bins(particles, 2. * largest + skin);
     find_pairs(particles, touching);
     sort_by_distance(particles);
-    std::sort(near.begin(), near.end(), [](const NeighborPair &a, const NeighborPair &b) {
-      return a.first < b.first;
-    });
+    sort_near_if_needed();
 
+    find_wall_rows(particles, walls);
+  }
+
+  void
+  VerletList::find_wall_rows(const ParticleArrays    &particles,
+                             const std::vector<Wall> &walls)
+  {
     for (unsigned int w = 0; w < walls.size(); ++w)
-      for (unsigned int i = 0; i < particles.n_owned; ++i)
-        if (walls[w].is_near(listed[i], particles.body[i].radius + skin))
-          wall_rows[w].push_back(i);
+      {
+        // A wall that moves comes nearer to all.
+        auto      &rows   = wall_rows[w];
+        const bool all    = walls[w].velocity().norm_square() > 0.;
+        const auto is_old = [&](const std::uint32_t row) {
+          return all || row >= particles.n_owned || moves[row];
+        };
+        rows.erase(std::remove_if(rows.begin(), rows.end(), is_old), rows.end());
+        for (unsigned int i = 0; i < particles.n_owned; ++i)
+          if ((all || moves[i]) &&
+              walls[w].is_near(listed[i], particles.body[i].radius + skin))
+            rows.push_back(i);
+        std::sort(rows.begin(), rows.end());
+      }
+  }
+
+  void
+  VerletList::sort_near_if_needed()
+  {
+    // In the order of the rows the loop over pairs finds the particles in the cache.
+    std::size_t descents = 0;
+    for (std::size_t k = 1; k < near.size(); ++k)
+      descents += near[k].first < near[k - 1].first;
+    if (20 * descents > near.size())
+      std::sort(
+        near.begin(), near.end(), [](const NeighborPair &a, const NeighborPair &b) {
+          return a.first < b.first;
+        });
   }
 
   void

@@ -65,7 +65,7 @@ namespace graupel
     /** Substep [s]; zero: by time_fraction. */
     double substep = 0.;
     /** Skin of the neighbour list over the particle diameter [-]. */
-    double skin = 0.25;
+    double skin = 0.4;
 
     /** Declares the section "Contact". */
     void declare(dealii::ParameterHandler &prm);

@@ -54,7 +54,7 @@ namespace graupel
     void clear();
 
     /**
-     * Lists all particles anew that are farther than a quarter of the skin from
+     * Lists all particles anew that are farther than a small part of the skin from
      * their listed place or are not listed yet, and all ghosts; sets all near
      * pairs. @p touching: the contacts, which stay out of the list.
      */
@@ -79,6 +79,8 @@ namespace graupel
   private:
     void choose_movers(const ParticleArrays &particles);
     void drop_pairs_of_movers();
+    void find_wall_rows(const ParticleArrays &particles, const std::vector<Wall> &walls);
+    void sort_near_if_needed();
     void sort_into_bins(const ParticleArrays &particles, const double bin_size);
     void find_pairs(const ParticleArrays &particles, const TouchingRows &touching);
     void find_pairs_of(const std::uint32_t   row,
