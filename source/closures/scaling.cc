@@ -201,13 +201,13 @@ namespace graupel
   }
 
   double
-  Drag::beta(const double alpha, const double slip) const
+  Drag::beta(const double alpha, const double slip, const double size) const
   {
-    const double re = reynolds(slip);
+    const double re = reynolds(slip) * size;
     if (!(alpha > 0. && alpha <= greatest_void_fraction))
       throw std::runtime_error("No drag law holds at " + at(alpha, re) +
                                ": the void fraction must lie in (0, 1]");
-    const double result = beta_per_drag_number * drag_number(alpha, re);
+    const double result = beta_per_drag_number * size * drag_number(alpha, re);
     if (!(result >= 0. && std::isfinite(result)))
       throw std::runtime_error("The drag law " + drag_law->name +
                                " gives the coefficient " + std::to_string(result) +

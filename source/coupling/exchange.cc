@@ -76,11 +76,11 @@ namespace graupel
             "the filter one particle diameter wide");
   }
 
-  Exchange::Exchange(const double      filter_length,
-                     const Drag       &drag,
-                     const NodalSpace &nodes,
-                     CostSheet        &costs)
-    : drag(drag)
+  Exchange::Exchange(const double                   filter_length,
+                     const std::vector<DragOfType> &drags,
+                     const NodalSpace              &nodes,
+                     CostSheet                     &costs)
+    : drags(drags)
     , nodes(nodes)
     , costs(costs)
     , filter(nodes, filter_length)
@@ -151,7 +151,9 @@ namespace graupel
           slip[i] = velocity[i][row] - particles.body[row].velocity[i];
         try
           {
-            beta[row] = drag.beta(alpha[row], slip.norm());
+            const auto &[drag, radius] = drags[particles.type[row]];
+            beta[row] =
+              drag.beta(alpha[row], slip.norm(), particles.body[row].radius / radius);
           }
         catch (const std::exception &error)
           {
@@ -192,8 +194,9 @@ namespace graupel
         transfer.sample(gradient, smooth_gradient[i]);
         for (unsigned int row = 0; row < particles.n_owned; ++row)
           {
-            force[row][i] = beta[row] * (velocity[row] - particles.body[row].velocity[i]) -
-                            volume[row] * gradient[row];
+            force[row][i] =
+              beta[row] * (velocity[row] - particles.body[row].velocity[i]) -
+              volume[row] * gradient[row];
             fluid_force[i] += force[row][i];
           }
       }

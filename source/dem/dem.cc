@@ -45,7 +45,7 @@ namespace graupel
     , skin(input.contact.skin * 2. * input.largest_radius())
     , near_skin(std::min(0.5 * skin, relative_near_skin * input.largest_radius()))
     , walls(input.walls.walls(mesh.cylinder()))
-    , materials(input.materials(false, walls.size()))
+    , materials(input.materials(false, walls))
     , gravity({0., 0., -input.particles.gravity})
     , particle_store(mesh)
     , halo(mesh.cylinder(),
@@ -215,7 +215,7 @@ namespace graupel
   void
   Dem::use_packing_materials(const bool packing)
   {
-    materials = input.materials(packing, walls.size());
+    materials = input.materials(packing, walls);
   }
 
   void

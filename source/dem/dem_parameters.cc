@@ -2,6 +2,10 @@
 #include <graupel/dem/dem_parameters.h>
 #include <graupel/dem/particle_arrays.h>
 
+#include <deal.II/base/utilities.h>
+
+#include <limits>
+#include <set>
 #include <sstream>
 
 namespace graupel
@@ -28,6 +32,9 @@ namespace graupel
               "Contact/" + which + " restitution",
               "a collision returns between 0.01 and 1 of the approach speed");
       check_friction(surface.friction, surface.rolling_resistance, which);
+      require(surface.adhesion >= 0. && surface.adhesion <= 100.,
+              "Contact/" + which + " adhesion",
+              "a work of adhesion is not negative, and far below 100 J/m^2");
     }
 
     void
@@ -71,6 +78,13 @@ namespace graupel
     prm.add_parameter("density", density, "Density of the solid [kg/m^3].");
     prm.add_parameter(
       "gravity", gravity, "Acceleration of gravity, downwards along the axis [m/s^2].");
+    sizes.declare(prm);
+    for (unsigned int t = 0; t < further_types.size(); ++t)
+      {
+        prm.enter_subsection("Type " + std::to_string(t + 2));
+        further_types[t].declare(prm);
+        prm.leave_subsection();
+      }
     prm.leave_subsection();
   }
 
@@ -88,6 +102,16 @@ namespace graupel
     require(gravity >= 0.,
             "Particles/gravity",
             "gravity points downwards already; its size cannot be negative");
+    sizes.check(diameter, "Particles");
+    double others = 0.;
+    for (unsigned int t = 0; t < further_types.size(); ++t)
+      {
+        further_types[t].check("Particles/Type " + std::to_string(t + 2));
+        others += further_types[t].mass_fraction;
+      }
+    require(others < 1.,
+            "Particles/Type 2/mass fraction",
+            "nothing is left for the first type: the others must stay below 1 together");
     require(
       2. * scale * diameter < cylinder.diameter && scale * diameter < cylinder.height,
       "Particles/diameter",
@@ -113,9 +137,9 @@ namespace graupel
     prm.add_parameter(
       "model",
       model,
-      "Law of the normal and tangential force: hertz-mindlin (elastic spheres) "
-      "or linear-spring.",
-      Selection("hertz-mindlin|linear-spring"));
+      "Law of the normal and tangential force: hertz-mindlin (elastic spheres), "
+      "linear-spring, or jkr (elastic spheres with adhesion).",
+      Selection("hertz-mindlin|linear-spring|jkr"));
     prm.add_parameter(
       "rolling model",
       rolling_model,
@@ -138,7 +162,8 @@ namespace graupel
                       "Poisson's ratio of the walls [-].");
     prm.add_parameter("normal stiffness",
                       normal_stiffness,
-                      "Normal stiffness of the linear-spring model [N/m].");
+                      "Normal stiffness of the linear-spring model between original "
+                      "particles; simulated ones have it times their scale [N/m].");
     prm.add_parameter("stiffness ratio",
                       stiffness_ratio,
                       "Tangential over normal stiffness of the linear-spring model [-].");
@@ -169,6 +194,20 @@ namespace graupel
       wall_surface.rolling_resistance,
       "Coefficient of rolling resistance between particle and wall while fluid "
       "flows [-].");
+    prm.add_parameter("particle adhesion",
+                      particle_surface.adhesion,
+                      "Work of adhesion between particles, of the jkr model [J/m^2].");
+    prm.add_parameter(
+      "wall adhesion",
+      wall_surface.adhesion,
+      "Work of adhesion between particle and wall, of the jkr model [J/m^2].");
+    prm.add_parameter(
+      "pairs",
+      pairs,
+      "Pairs that differ from the above, separated by commas: two types, or a type and a "
+      "wall (wall, bottom, top, plane 1, ...), then a quantity (restitution, friction, "
+      "rolling resistance, adhesion) and its value, as in \"1-2 friction 0.3, 2-bottom "
+      "restitution 0.9\"; they hold while packing too [-, J/m^2].");
     prm.add_parameter(
       "packing particle friction",
       packing_particle_friction,
@@ -253,6 +292,7 @@ namespace graupel
   {
     particles.check(cylinder);
     contact.check();
+    check_pairs();
     walls.check();
     require(!walls.is_periodic() || cylinder.height > 6. * largest_radius(),
             "Walls/top",
@@ -267,13 +307,55 @@ namespace graupel
               " s; choose a shorter substep (zero for the default) or a softer material");
   }
 
+  std::vector<ParticleType>
+  DemParameters::types() const
+  {
+    ParticleType first;
+    first.mass_fraction = 1.;
+    first.diameter      = particles.diameter;
+    first.scale         = particles.scale;
+    first.density       = particles.density;
+    first.elasticity    = contact.particle_elasticity;
+    first.sizes         = particles.sizes;
+    std::vector<ParticleType> all{first};
+    for (const auto &type : particles.further_types)
+      if (type.mass_fraction > 0.)
+        {
+          all.front().mass_fraction -= type.mass_fraction;
+          all.push_back(type);
+        }
+    return all;
+  }
+
+  double
+  DemParameters::largest_radius() const
+  {
+    double largest = 0.;
+    for (const auto &type : types())
+      largest = std::max(largest, type.largest_radius());
+    return largest;
+  }
+
+  double
+  DemParameters::normal_stiffness() const
+  {
+    return contact.normal_stiffness * particles.scale;
+  }
+
   double
   DemParameters::characteristic_time() const
   {
-    if (contact.model == "linear-spring")
-      return 0.25 * std::sqrt(particles.simulated_mass() / contact.normal_stiffness);
-    return rayleigh_time(
-      particles.simulated_radius(), particles.density, contact.particle_elasticity);
+    double shortest = std::numeric_limits<double>::max();
+    for (const auto &type : types())
+      {
+        const double radius = type.smallest_radius();
+        shortest            = std::min(
+          shortest,
+          contact.model == "linear-spring"
+                       ? 0.25 * std::sqrt(type.density * sphere_volume(radius) / normal_stiffness())
+                       : rayleigh_time(radius, type.density, type.elasticity));
+      }
+    return shortest;
   }
 
   double
@@ -286,21 +368,24 @@ namespace graupel
   double
   DemParameters::reference_force() const
   {
-    const double r       = particles.simulated_radius();
+    const double r       = largest_radius();
     const double overlap = 0.1 * r;
     if (contact.model == "linear-spring")
-      return contact.normal_stiffness * overlap;
-    return 4. / 3. * materials(false, 0).between(0, 0).young *
-           std::sqrt(0.5 * r * overlap) * overlap;
+      return normal_stiffness() * overlap;
+    double stiffest = 0.;
+    for (const auto &pair : materials(false, {}).particles)
+      stiffest = std::max(stiffest, pair.young);
+    return 4. / 3. * stiffest * std::sqrt(0.5 * r * overlap) * overlap;
   }
 
   double
   DemParameters::overlap_under(const double force) const
   {
     if (contact.model == "linear-spring")
-      return force / contact.normal_stiffness;
-    return hertz_overlap(
-      force, materials(false, 0).between(0, 0).young, 0.5 * particles.simulated_radius());
+      return force / normal_stiffness();
+    return hertz_overlap(force,
+                         materials(false, {}).between(0, 0).young,
+                         0.5 * particles.simulated_radius());
   }
 
   NormalLaws
@@ -308,6 +393,8 @@ namespace graupel
   {
     if (contact.model == "linear-spring")
       return LinearSpring{};
+    if (contact.model == "jkr")
+      return Jkr{};
     return HertzMindlin{};
   }
 
@@ -321,8 +408,89 @@ namespace graupel
     return SpringRolling{};
   }
 
+  namespace
+  {
+    // One entry of "Contact/pairs".
+    struct PairEntry
+    {
+      std::string first, second, quantity;
+      double      value = 0.;
+    };
+
+    PairEntry
+    read_pair(const std::string &text)
+    {
+      const std::string advice =
+        "\"" + text +
+        "\" is not a pair: write \"1-2 friction 0.3\" or \"2-bottom restitution 0.9\"";
+      PairEntry entry;
+      for (const std::string quantity :
+           {"restitution", "friction", "rolling resistance", "adhesion"})
+        {
+          const auto at = text.find(" " + quantity + " ");
+          if (at == std::string::npos)
+            continue;
+          const auto bodies = text.substr(0, at);
+          const auto dash   = bodies.find('-');
+          require(dash != std::string::npos, "Contact/pairs", advice);
+          entry.first    = dealii::Utilities::trim(bodies.substr(0, dash));
+          entry.second   = dealii::Utilities::trim(bodies.substr(dash + 1));
+          entry.quantity = quantity;
+          std::istringstream number(text.substr(at + quantity.size() + 2));
+          require(static_cast<bool>(number >> entry.value) && (number >> std::ws).eof(),
+                  "Contact/pairs",
+                  advice);
+          return entry;
+        }
+      require(false, "Contact/pairs", advice);
+      return entry;
+    }
+  } // namespace
+
+  void
+  DemParameters::check_pairs() const
+  {
+    std::set<std::string> bodies{"wall", "bottom", "top"};
+    const auto            n_types = types().size();
+    for (std::size_t type = 1; type <= n_types; ++type)
+      bodies.insert(std::to_string(type));
+    for (const auto &text : dealii::Utilities::split_string_list(contact.pairs))
+      {
+        const auto entry = read_pair(text);
+        for (const auto &body : {entry.first, entry.second})
+          require(bodies.count(body) > 0 || body.rfind("plane ", 0) == 0 ||
+                    walls.surfaces.find(body) != std::string::npos,
+                  "Contact/pairs",
+                  "\"" + body + "\" is neither a type from 1 to " +
+                    std::to_string(n_types) + " nor a wall");
+        Surface surface = contact.particle_surface;
+        override_surface(entry.first + "-" + entry.second, surface);
+        check_surface(surface, "pair " + entry.first + "-" + entry.second);
+      }
+  }
+
+  void
+  DemParameters::override_surface(const std::string &pair, Surface &surface) const
+  {
+    for (const auto &text : dealii::Utilities::split_string_list(contact.pairs))
+      {
+        const auto entry = read_pair(text);
+        if (entry.first + "-" + entry.second != pair &&
+            entry.second + "-" + entry.first != pair)
+          continue;
+        if (entry.quantity == "restitution")
+          surface.restitution = entry.value;
+        if (entry.quantity == "friction")
+          surface.friction = entry.value;
+        if (entry.quantity == "rolling resistance")
+          surface.rolling_resistance = entry.value;
+        if (entry.quantity == "adhesion")
+          surface.adhesion = entry.value;
+      }
+  }
+
   Materials
-  DemParameters::materials(const bool packing, const unsigned int n_walls) const
+  DemParameters::materials(const bool packing, const std::vector<Wall> &vessel) const
   {
     Surface between = contact.particle_surface, with_wall = contact.wall_surface;
     if (packing)
@@ -332,18 +500,33 @@ namespace graupel
         with_wall.friction           = contact.packing_wall_friction;
         with_wall.rolling_resistance = contact.packing_wall_rolling;
       }
-    const PairMaterial particle_pair(contact.particle_elasticity,
-                                     contact.particle_elasticity,
-                                     between,
-                                     contact.normal_stiffness,
-                                     contact.stiffness_ratio);
-    const PairMaterial wall_pair(contact.particle_elasticity,
-                                 contact.wall_elasticity,
-                                 with_wall,
-                                 contact.normal_stiffness,
-                                 contact.stiffness_ratio);
-    return {{particles.density},
-            {particle_pair},
-            std::vector<PairMaterial>(n_walls, wall_pair)};
+    const auto pair_material = [&](const Elasticity  &first,
+                                   const Elasticity  &second,
+                                   Surface            surface,
+                                   const std::string &pair) {
+      override_surface(pair, surface);
+      return PairMaterial(
+        first, second, surface, normal_stiffness(), contact.stiffness_ratio);
+    };
+
+    const auto all = types();
+    Materials  result;
+    for (std::size_t i = 0; i < all.size(); ++i)
+      {
+        result.density.push_back(all[i].density);
+        for (std::size_t j = 0; j < all.size(); ++j)
+          result.particles.push_back(
+            pair_material(all[i].elasticity,
+                          all[j].elasticity,
+                          between,
+                          std::to_string(i + 1) + "-" + std::to_string(j + 1)));
+      }
+    for (const auto &wall : vessel)
+      for (std::size_t i = 0; i < all.size(); ++i)
+        result.walls.push_back(pair_material(all[i].elasticity,
+                                             contact.wall_elasticity,
+                                             with_wall,
+                                             std::to_string(i + 1) + "-" + wall.name));
+    return result;
   }
 } // namespace graupel

@@ -112,13 +112,11 @@ namespace graupel
                   parameters.fluid.viscosity,
                   *nodes,
                   summary.costs);
-    exchange.emplace(parameters.filter_length(),
-                     Drag(parameters.drag,
-                          parameters.fluid,
-                          parameters.dem.particles.diameter,
-                          parameters.dem.particles.scale),
-                     *nodes,
-                     summary.costs);
+    std::vector<DragOfType> drags;
+    for (const auto &type : parameters.dem.types())
+      drags.push_back({Drag(parameters.drag, parameters.fluid, type.diameter, type.scale),
+                       0.5 * type.scale * type.diameter});
+    exchange.emplace(parameters.filter_length(), drags, *nodes, summary.costs);
   }
 
   void

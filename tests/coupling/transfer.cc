@@ -227,7 +227,8 @@ TEST(Exchange, KeepsItsLedgerOnARandomPacking)
     for (unsigned int i = 0; i < 3; ++i)
       packing.dem.particles().body[row].velocity[i] =
         0.01 * RandomPacking::noise(packing.dem.particles().id[row] + 0.1 * i);
-  Exchange   exchange(3e-3, Drag({}, fluid, 1.6e-3, 2.), packing.nodes, packing.costs);
+  Exchange exchange(
+    3e-3, {{Drag({}, fluid, 1.6e-3, 2.), 1.6e-3}}, packing.nodes, packing.costs);
   FlowSolver flow({}, fluid.density, fluid.viscosity, packing.nodes, packing.costs);
   flow.set_superficial_velocity(0.3);
   for (unsigned int n = 0; n < 8; ++n)

@@ -74,7 +74,7 @@ namespace
     const Contact<double> contact{
       triple(n), 2e-3 - between.norm(), 5e-4, 1., {}, {}, {}, 0.};
     const double S_t =
-      HertzMindlin::stiffness(column.dem.parameters().materials(false, 0).between(0, 0),
+      HertzMindlin::stiffness(column.dem.parameters().materials(false, {}).between(0, 0),
                               contact)
         .tangential;
     const double expected =

@@ -64,8 +64,9 @@ namespace
           {{Point<3>(-R, 0., 4. * R), R, Vector({v, 0., 0.})},
            {Point<3>(R * (1. + gap), 0., 4. * R), R, Vector({-v, 0., 0.})}});
         title(std::string("two spheres of ") + solid.name);
-        const double k =
-          4. / 3. * p.materials(false, 1).particles[0].young * std::sqrt(R / 2.);
+        const double k = 4. / 3. *
+                         p.materials(false, vessel_walls({})).particles[0].young *
+                         std::sqrt(R / 2.);
         follow_elastic_impact(vessel, hertz, k, 2. * v, [&]() {
           return vessel.body(0).velocity[0] - vessel.body(1).velocity[0];
         });
@@ -83,7 +84,8 @@ namespace
         ValidationVessel vessel(p, 8. * R, 8. * R);
         vessel.dem.insert({{Point<3>(0., 0., R * (1. + gap)), R, Vector({0., 0., -v})}});
         title(std::string("sphere of ") + solid.name);
-        const double k = 4. / 3. * p.materials(false, 1).walls[0].young * std::sqrt(R);
+        const double k =
+          4. / 3. * p.materials(false, vessel_walls({})).walls[0].young * std::sqrt(R);
         follow_elastic_impact(
           vessel, hertz, k, v, [&]() { return -vessel.body(0).velocity[2]; });
       }

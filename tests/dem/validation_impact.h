@@ -67,7 +67,7 @@ namespace graupel
   inline HertzImpact
   plane_impact(const DemParameters &p, const double v)
   {
-    return {p.materials(false, 1).walls[0].young,
+    return {p.materials(false, vessel_walls({})).walls[0].young,
             p.particles.simulated_radius(),
             p.particles.simulated_mass(),
             v};
@@ -76,7 +76,7 @@ namespace graupel
   inline HertzImpact
   pair_impact(const DemParameters &p, const double v)
   {
-    return {p.materials(false, 1).particles[0].young,
+    return {p.materials(false, vessel_walls({})).particles[0].young,
             p.particles.simulated_radius() / 2.,
             p.particles.simulated_mass() / 2.,
             v};

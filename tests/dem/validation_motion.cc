@@ -31,7 +31,8 @@ namespace
   double
   overlap_with_bottom(const DemParameters &p, const double force)
   {
-    return hertz_overlap(force, p.materials(false, 3).walls[bottom_wall].young, R);
+    return hertz_overlap(
+      force, p.materials(false, vessel_walls({})).walls[bottom_wall].young, R);
   }
 
   // A sphere at rest on the bottom, released in tilted gravity for @p time.
@@ -151,7 +152,7 @@ namespace
       {
         const bool   wall  = contact.second < 0;
         const double above = (wall ? n : n - 1 - contact.first) * weight;
-        const auto  &pairs = p.materials(false, 3);
+        const auto  &pairs = p.materials(false, vessel_walls({}));
         const double young =
           wall ? pairs.walls[bottom_wall].young : pairs.particles[0].young;
         const double hertz = hertz_overlap(above, young, wall ? R : R / 2.);
@@ -228,7 +229,7 @@ namespace
     for (auto &particle : particles)
       particle.spin = 0.;
     vessel.dem.insert(particles);
-    const auto   materials = p.materials(false, 3);
+    const auto   materials = p.materials(false, vessel_walls({}));
     const double start     = energy(vessel.dem, materials);
     double       sum       = 0.;
     unsigned int n         = 400;

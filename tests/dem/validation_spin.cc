@@ -97,7 +97,7 @@ namespace
     const double      m_2    = p.particles.density * sphere_volume(R_2);
     const double      radius = R_1 * R_2 / (R_1 + R_2), mass = m_1 * m_2 / (m_1 + m_2);
     const HertzImpact hertz(
-      p.materials(false, 1).particles[0].young, radius, mass, v_1 - v_2);
+      p.materials(false, vessel_walls({})).particles[0].young, radius, mass, v_1 - v_2);
     p.particles.diameter = 2. * std::max(R_1, R_2);
     p.contact.substep    = hertz.duration / fineness;
     ValidationVessel vessel(p, 8. * R_2, 8. * R_2);

@@ -110,11 +110,12 @@ namespace graupel
     /**
      * beta_p [kg/s] of one simulated sphere in F = beta_p (u - v), at the void
      * fraction @p alpha [-] and the interstitial slip |u - v| [m/s]. Finite at
-     * rest. Throws std::runtime_error for a void fraction outside (0, 1] by
+     * rest. @p size: the diameter of this sphere over that of the constructor [-].
+     * Throws std::runtime_error for a void fraction outside (0, 1] by
      * more than a filter's overshoot of 0.01, and for a drag that is negative
      * or not a number.
      */
-    double beta(const double alpha, const double slip) const;
+    double beta(const double alpha, const double slip, const double size = 1.) const;
 
     /** Re_s = rho |u - v| d_s / mu [-] of the simulated sphere. */
     double reynolds(const double slip) const;

@@ -10,6 +10,15 @@
 
 namespace graupel
 {
+  /** The drag on the particles of one type. */
+  struct DragOfType
+  {
+    /** For a sphere of this radius; for others of the type in proportion. */
+    Drag drag;
+    /** Radius of that simulated sphere [m]. */
+    double radius;
+  };
+
   /** How particles and fluid feel each other, beside the drag law. */
   struct CouplingParameters
   {
@@ -40,10 +49,10 @@ namespace graupel
   {
   public:
     /** @p filter_length [m]; @p nodes and @p costs must outlive this object. */
-    Exchange(const double      filter_length,
-             const Drag       &drag,
-             const NodalSpace &nodes,
-             CostSheet        &costs);
+    Exchange(const double                   filter_length,
+             const std::vector<DragOfType> &drags,
+             const NodalSpace              &nodes,
+             CostSheet                     &costs);
 
     /**
      * Void fraction and drag coefficients from where the particles are (the
@@ -96,13 +105,13 @@ namespace graupel
     void deposit_drag(const ParticleArrays &particles);
     void keep_ledger(const FlowSolver &flow, const NodalVectorField &pressure_gradient);
 
-    const Drag        drag;
-    const NodalSpace &nodes;
-    CostSheet        &costs;
-    const Filter      filter;
-    ParticleTransfer  transfer;
-    Medium            result;
-    NodalVector       solid_fraction, scratch;
+    const std::vector<DragOfType> drags;
+    const NodalSpace             &nodes;
+    CostSheet                    &costs;
+    const Filter                  filter;
+    ParticleTransfer              transfer;
+    Medium                        result;
+    NodalVector                   solid_fraction, scratch;
 
     NodalVectorField     interstitial;    // u [m/s]
     NodalVectorField     smooth_velocity; // S u [m/s]

@@ -2,12 +2,15 @@
 #define graupel_dem_dem_parameters_h
 
 #include <graupel/dem/materials.h>
+#include <graupel/dem/particle_types.h>
 #include <graupel/dem/walls.h>
 #include <graupel/mesh/cylinder.h>
 
 #include <deal.II/base/parameter_handler.h>
 
+#include <array>
 #include <string>
+#include <vector>
 
 namespace graupel
 {
@@ -22,6 +25,10 @@ namespace graupel
     double density = 2700.;
     /** Acceleration of gravity, along -z [m/s^2]. */
     double gravity = 9.81;
+    /** Sizes of the first type, which has diameter, scale and density above. */
+    SizeDistribution sizes;
+    /** Types 2 to 4. */
+    std::array<ParticleType, 3> further_types;
 
     /** Radius of a simulated particle [m]. */
     double
@@ -41,7 +48,7 @@ namespace graupel
   /** The laws of contact and their numbers. */
   struct ContactParameters
   {
-    /** "hertz-mindlin" or "linear-spring". */
+    /** "hertz-mindlin", "linear-spring" or "jkr". */
     std::string model = "hertz-mindlin";
     /** "spring-dashpot", "constant-torque" or "none". */
     std::string rolling_model = "spring-dashpot";
@@ -56,7 +63,10 @@ namespace graupel
     double packing_wall_friction     = 0.08;
     double packing_wall_rolling      = 0.;
 
-    /** Normal stiffness of the linear law [N/m]. */
+    /** Pairs that differ, as in "1-2 friction 0.3, 2-wall restitution 0.9". */
+    std::string pairs;
+
+    /** Normal stiffness of the linear law, for original particles [N/m]. */
     double normal_stiffness = 1000.;
     /** Tangential over normal stiffness of the linear law [-]. */
     double stiffness_ratio = 2. / 7.;
@@ -89,8 +99,8 @@ namespace graupel
     void check(const Cylinder &cylinder) const;
 
     /**
-     * The time that bounds the substep [s]: the Rayleigh time of a particle, or
-     * sqrt(m/k_n)/4 for linear springs, a ninth of an impact.
+     * The time that bounds the substep [s]: the shortest Rayleigh time of a particle,
+     * or sqrt(m/k_n)/4 for linear springs, a ninth of an impact.
      */
     double characteristic_time() const;
     /** The longest substep that is used [s]. */
@@ -103,23 +113,28 @@ namespace graupel
     /** Overlap that a static force makes between two particles [m]. */
     double overlap_under(const double force) const;
 
+    /** The types in use; the first is that of Particles and Contact. */
+    std::vector<ParticleType> types() const;
     /** Radius of the largest simulated particle of any type [m]. */
-    double
-    largest_radius() const
-    {
-      return particles.simulated_radius();
-    }
+    double largest_radius() const;
+    /** Normal stiffness of the linear law for simulated particles [N/m]. */
+    double normal_stiffness() const;
 
     NormalLaws  normal_law() const;
     RollingLaws rolling_law() const;
     /**
-     * Materials of all types of particles and of @p n_walls walls, with the
-     * friction of packing or that of the flow.
+     * Materials of all types of particles and of these walls, with the friction of
+     * packing or that of the flow.
      */
-    Materials materials(const bool packing, const unsigned int n_walls) const;
+    Materials materials(const bool packing, const std::vector<Wall> &vessel) const;
 
     /** Substep over the characteristic time above which a run is refused [-]. */
     static constexpr double largest_time_fraction = 0.4;
+
+  private:
+    void check_pairs() const;
+    // What "Contact/pairs" says of this pair, put into @p surface.
+    void override_surface(const std::string &pair, Surface &surface) const;
   };
 } // namespace graupel
 
