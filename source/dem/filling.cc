@@ -2,6 +2,9 @@
 #include <graupel/dem/bed_observables.h>
 #include <graupel/dem/dem_error.h>
 #include <graupel/dem/filling.h>
+#include <graupel/dem/particle_list.h>
+
+#include <limits>
 
 namespace graupel
 {
@@ -23,6 +26,16 @@ namespace graupel
 
     constexpr double pause = 1e-3;
 
+    // A loose random packing: up to here places are found quickly (none are left
+    // beyond 0.38), and how often one is looked for.
+    constexpr double       loose_solid_fraction = 0.28;
+    constexpr unsigned int most_tries           = 3000;
+
+    // The loose packing of a batch ends above the bed by this many diameters, and
+    // is as high as this at least.
+    constexpr double batch_clearance = 1.;
+    constexpr double least_batch     = 2.;
+
     // Without a bed to measure, that of a loose random packing.
     constexpr double usual_solid_fraction = 0.6;
 
@@ -39,6 +52,13 @@ namespace graupel
   FillingParameters::declare(dealii::ParameterHandler &prm)
   {
     prm.enter_subsection("Filling");
+    prm.add_parameter(
+      "method",
+      method,
+      "How the bed is filled: rain (layer by layer from the top), packing (loose "
+      "packings of the whole free space that fall; faster), volume (one loose packing "
+      "between lower and upper), or list (from a file).",
+      dealii::Patterns::Selection("rain|packing|volume|list"));
     prm.add_parameter(
       "count",
       count,
@@ -61,14 +81,48 @@ namespace graupel
       interval,
       "Time between two layers of particles; 0 for the shortest in which a layer "
       "makes room for the next [s].");
+    prm.add_parameter("rate",
+                      rate,
+                      "Particles that rain in a second; 0 for as many as there is room "
+                      "for [1/s].");
+    prm.add_parameter("lower", lower, "Lower end of the section that volume fills [m].");
+    prm.add_parameter(
+      "upper", upper, "Upper end of the section that volume fills; 0 for the top [m].");
+    prm.add_parameter("file",
+                      file,
+                      "CSV file of the method list, with the columns x, y, z, diameter "
+                      "and if wanted vx, vy, vz, wx, wy, wz, type (SI units).");
     prm.add_parameter(
       "seed", seed, "Start of the random numbers that place particles [-].");
     prm.leave_subsection();
   }
 
   void
-  FillingParameters::check(const Cylinder           &cylinder,
-                           const ParticleParameters &particles) const
+  FillingParameters::check(const Cylinder &cylinder, const DemParameters &particles) const
+  {
+    require(drop_speed > 0.,
+            "Filling/drop speed",
+            "particles must leave the place where they enter; choose a positive speed, "
+            "in m/s");
+    require(interval >= 0.,
+            "Filling/interval",
+            "a time is positive, in seconds; 0 for the default");
+    require(rate >= 0., "Filling/rate", "a rate is positive, in 1/s; 0 for the fastest");
+    require((method == "list") == !file.empty(),
+            "Filling/file",
+            "the method list needs a file, and no other method has one");
+    const double end = upper > 0. ? upper : cylinder.height;
+    require(method != "volume" || (lower >= 0. && end <= cylinder.height &&
+                                   end - lower > 2.2 * particles.largest_radius()),
+            "Filling/upper",
+            "the section to fill must lie in the vessel and be higher than a particle");
+    if (method != "list")
+      check_amount(cylinder, particles);
+  }
+
+  void
+  FillingParameters::check_amount(const Cylinder      &cylinder,
+                                  const DemParameters &particles) const
   {
     require(mass >= 0., "Filling/mass", "a mass is positive, in kg; 0 if not used");
     require(bed_height >= 0.,
@@ -78,15 +132,8 @@ namespace graupel
             "Filling/bed height",
             "exactly one of count, mass and bed height must be set and the other two be "
             "zero");
-    require(drop_speed > 0.,
-            "Filling/drop speed",
-            "particles must leave the place where they enter; choose a positive speed, "
-            "in m/s");
-    require(interval >= 0.,
-            "Filling/interval",
-            "a time is positive, in seconds; 0 for the default");
 
-    const double d    = 2. * particles.simulated_radius();
+    const double d    = 2. * particles.largest_radius();
     const double room = cylinder.height - (1. + zone_thickness + gap) * d;
     require(
       room > d, "Geometry/height", "the column is too low to drop particles into it");
@@ -95,9 +142,16 @@ namespace graupel
             "the bed would reach the place where particles enter, 1.5 diameters below "
             "the top; "
             "choose a lower bed or a higher column");
-    const double solid =
-      count > 0 ? count * sphere_volume(d / 2.) : mass / particles.density;
-    require(solid <= 0.74 * cylinder.cross_section() * room,
+    double lightest = std::numeric_limits<double>::max(), mean_volume = lightest;
+    for (const auto &type : particles.types())
+      {
+        lightest    = std::min(lightest, type.density);
+        mean_volume = std::min(mean_volume, type.mean_mass() / type.density);
+      }
+    const double solid = count > 0 ? count * mean_volume : mass / lightest;
+    const bool   one_size =
+      particles.types().size() == 1 && particles.particles.sizes.kind == "single";
+    require(!one_size || solid <= 0.74 * cylinder.cross_section() * room,
             count > 0 ? "Filling/count" : "Filling/mass",
             "not even the densest packing has room for so many particles in the column");
   }
@@ -105,7 +159,8 @@ namespace graupel
   Filling::Filling(const FillingParameters &parameters, Dem &dem)
     : input(parameters)
     , dem(dem)
-    , radius(dem.parameters().particles.simulated_radius())
+    , source(dem.parameters().types())
+    , radius(dem.parameters().largest_radius())
     , layer_interval(std::max(input.interval,
                               shortest_interval(2. * radius,
                                                 input.drop_speed,
@@ -113,10 +168,6 @@ namespace graupel
     , generator(input.seed)
   {
     dem.use_packing_materials(true);
-    if (input.count > 0)
-      target = input.count;
-    else if (input.mass > 0.)
-      target = std::lround(input.mass / dem.parameters().particles.simulated_mass());
   }
 
   double
@@ -141,78 +192,142 @@ namespace graupel
   unsigned int
   Filling::n_missing()
   {
-    if (input.bed_height == 0.)
-      return target - std::min(target, dem.n_global());
+    if (input.count > 0)
+      return input.count - std::min(input.count, dem.n_global());
+    if (input.mass > 0.)
+      return static_cast<unsigned int>(
+        std::max(0., std::round((input.mass - dem.solid_mass()) / source.mean_mass())));
 
     const double missing_volume = (input.bed_height - expected_height()) *
                                   dem.cylinder().cross_section() * usual_solid_fraction;
     return static_cast<unsigned int>(
-      std::max(0., missing_volume / sphere_volume(radius)));
+      std::max(0., missing_volume * dem.mean_density() / source.mean_mass()));
   }
 
   double
   Filling::progress() const
   {
-    if (input.bed_height == 0.)
-      return dem.n_global() / static_cast<double>(target);
-    return std::min(1.,
-                    dem.solid_volume() / (dem.cylinder().cross_section() *
-                                          usual_solid_fraction * input.bed_height));
+    if (finished)
+      return 1.;
+    if (input.count > 0)
+      return dem.n_global() / static_cast<double>(input.count);
+    if (input.mass > 0.)
+      return std::min(1., dem.solid_mass() / input.mass);
+    if (input.bed_height > 0.)
+      return std::min(1.,
+                      dem.solid_volume() / (dem.cylinder().cross_section() *
+                                            usual_solid_fraction * input.bed_height));
+    return 0.;
   }
 
-  std::vector<Point<3>>
-  Filling::particles_above(const double z) const
+  void
+  Filling::add_obstacles(RandomPlaces &places, const double above) const
   {
     const ParticleArrays &p = dem.particles();
-    std::vector<Point<3>> mine, all;
+    std::vector<Point<3>> mine;
+    std::vector<double>   radii;
     for (unsigned int i = 0; i < p.n_owned; ++i)
-      if (p.body[i].position[2] > z)
-        mine.push_back(p.body[i].position);
-    for (const auto &of_rank :
-         dealii::Utilities::MPI::all_gather(dem.communicator(), mine))
-      all.insert(all.end(), of_rank.begin(), of_rank.end());
-    return all;
+      if (p.body[i].position[2] > above)
+        {
+          mine.push_back(p.body[i].position);
+          radii.push_back(p.body[i].radius);
+        }
+    const auto all_centers = dealii::Utilities::MPI::all_gather(dem.communicator(), mine);
+    const auto all_radii = dealii::Utilities::MPI::all_gather(dem.communicator(), radii);
+    for (std::size_t rank = 0; rank < all_centers.size(); ++rank)
+      for (std::size_t k = 0; k < all_centers[rank].size(); ++k)
+        places.add_obstacle(all_centers[rank][k], all_radii[rank][k]);
+  }
+
+  unsigned int
+  Filling::fill_section(const double       lower,
+                        const double       upper,
+                        const unsigned int at_most,
+                        const unsigned int n_tries,
+                        const double       solid_fraction)
+  {
+    RandomPlaces places(dem.cylinder(), lower, upper, radius, gap);
+    add_obstacles(places, lower - 2. * (1. + gap) * radius);
+    const double most_solid =
+      solid_fraction * dem.cylinder().cross_section() * (upper - lower);
+    const auto random = [this]() { return next_random(); };
+
+    std::vector<NewParticle> added;
+    double                   solid = 0.;
+    while (added.size() < at_most && solid < most_solid)
+      {
+        const auto  drawn = source.draw(random);
+        NewParticle particle;
+        particle.radius   = drawn.radius;
+        particle.type     = drawn.type;
+        particle.velocity = dealii::Tensor<1, 3>({0., 0., -input.drop_speed});
+        if (!places.place(drawn.radius, n_tries, random, particle.position))
+          break;
+        solid += sphere_volume(drawn.radius);
+        added.push_back(particle);
+      }
+    if (!added.empty())
+      dem.insert(added);
+    return added.size();
   }
 
   void
   Filling::drop_layer(const unsigned int at_most)
   {
-    const double d         = 2. * radius;
-    const double clearance = (1. + gap) * d;
-    const double top       = dem.cylinder().height - (0.5 + gap) * d;
-    const double reach     = 0.5 * dem.cylinder().diameter - radius * (1. + gap);
-
-    auto       obstacles = particles_above(top - zone_thickness * d - clearance);
-    const auto n_tries   = static_cast<unsigned int>(
+    const double reach   = 0.5 * dem.cylinder().diameter - radius * (1. + gap);
+    const auto   n_tries = static_cast<unsigned int>(
       tries_per_place * (1. + reach * reach / (radius * radius)));
+    const double upper = dem.cylinder().height;
+    const double lower = upper - (2. * (1. + gap) + 2. * zone_thickness) * radius;
+    const auto   by_rate =
+      input.rate > 0.
+          ? std::max(1u, static_cast<unsigned int>(input.rate * layer_interval))
+          : at_most;
+    const unsigned int n =
+      fill_section(lower, upper, std::min(at_most, by_rate), n_tries, 1.);
 
-    std::vector<Point<3>> layer;
-    for (unsigned int attempt = 0; attempt < n_tries && layer.size() < at_most; ++attempt)
-      {
-        const double   rho   = reach * std::sqrt(next_random());
-        const double   angle = 2. * dealii::numbers::PI * next_random();
-        const Point<3> place(rho * std::cos(angle),
-                             rho * std::sin(angle),
-                             top - zone_thickness * d * next_random());
-        const bool     free =
-          std::none_of(obstacles.begin(), obstacles.end(), [&](const Point<3> &other) {
-            return other.distance_square(place) < clearance * clearance;
-          });
-        if (free)
-          {
-            obstacles.push_back(place);
-            layer.push_back(place);
-          }
-      }
-
-    barren_layers = layer.empty() ? barren_layers + 1 : 0;
+    barren_layers = n == 0 ? barren_layers + 1 : 0;
     if (barren_layers > most_barren_layers)
       throw DemError(
         "the column is full: " + std::to_string(dem.n_global()) +
         " particles are in, and no room is left below the top for more. Fill in less "
         "(Filling/count, mass or bed height), or make Geometry/height larger.");
-    if (!layer.empty())
-      dem.insert(layer, dealii::Tensor<1, 3>({0., 0., -input.drop_speed}));
+    next_drop += layer_interval;
+    if (input.rate > 0.)
+      next_drop += std::max(0., n / input.rate - layer_interval);
+  }
+
+  void
+  Filling::drop_batch(const unsigned int at_most)
+  {
+    const double d     = 2. * radius;
+    const double upper = dem.cylinder().height;
+    const double lower =
+      dem.n_global() == 0 ? 0. : expected_height() + batch_clearance * d;
+    if (upper - lower < least_batch * d)
+      return drop_layer(at_most);
+    fill_section(lower, upper, at_most, most_tries, loose_solid_fraction);
+
+    // Until the last of them has come down on the others.
+    const double way =
+      (upper - lower) * (1. - loose_solid_fraction / usual_solid_fraction);
+    const double g = dem.parameters().particles.gravity;
+    const double v = input.drop_speed;
+    next_drop += g > 0. ? (std::sqrt(v * v + 2. * g * way) - v) / g : way / v;
+  }
+
+  void
+  Filling::fill_volume()
+  {
+    const double upper = input.upper > 0. ? input.upper : dem.cylinder().height;
+    unsigned int missing;
+    while ((missing = n_missing()) > 0)
+      if (fill_section(input.lower, upper, missing, most_tries, 1.) == 0)
+        throw DemError("the section from " + std::to_string(input.lower) + " m to " +
+                       std::to_string(upper) + " m has no room for more than " +
+                       std::to_string(dem.n_global()) +
+                       " particles at random places (Filling/method = volume). Fill in "
+                       "less, make it higher, or choose the method packing.");
   }
 
   bool
@@ -220,14 +335,22 @@ namespace graupel
   {
     if (finished)
       return false;
+    if (input.method == "list" || input.method == "volume")
+      {
+        if (input.method == "volume")
+          fill_volume();
+        else
+          dem.insert(read_particle_list(input.file, dem.parameters().types().size()));
+        finished = true;
+        return false;
+      }
     if (elapsed >= next_drop)
       {
         const unsigned int missing = n_missing();
         finished                   = missing == 0;
         if (finished)
           return false;
-        drop_layer(missing);
-        next_drop += layer_interval;
+        input.method == "rain" ? drop_layer(missing) : drop_batch(missing);
       }
     const double duration = std::min(std::max(next_drop - elapsed, dem.substep()), pause);
     dem.advance(duration);

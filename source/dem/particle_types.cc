@@ -2,264 +2,229 @@
 #include <graupel/dem/particle_arrays.h>
 #include <graupel/dem/particle_types.h>
 
-#include <algorithm>
-#include <sstream>
+#include <deal.II/base/utilities.h>
+
+#include <boost/math/distributions/normal.hpp>
 
 namespace graupel
 {
   namespace
   {
-    std::string
-    text_of(const double value)
-    {
-      std::ostringstream text;
-      text << value;
-      return text.str();
-    }
-
-    // Accepts a number, or the word "auto".
-    class NumberOrAuto : public dealii::Patterns::PatternBase
-    {
-    public:
-      bool
-      match(const std::string &text) const override
-      {
-        return text == "auto" || dealii::Patterns::Double().match(text);
-      }
-
-      std::string
-      description(const OutputStyle) const override
-      {
-        return "a number or auto";
-      }
-
-      std::unique_ptr<PatternBase>
-      clone() const override
-      {
-        return std::make_unique<NumberOrAuto>();
-      }
-    };
-
-    void
-    check_optional(const OptionalNumber &number,
-                   const double          least,
-                   const double          most,
-                   const std::string    &name)
-    {
-      require(!number || (*number >= least && *number <= most),
-              name,
-              "it lies between " + text_of(least) + " and " + text_of(most) +
-                "; auto takes that of the first type");
-    }
+    // Where no ends are given, the tails are cut here, in deviations.
+    constexpr double usual_tail = 3.;
+    // Diameters at which a mean over a distribution is taken.
+    constexpr unsigned int n_samples = 2000;
   } // namespace
 
   void
-  add_optional_number(dealii::ParameterHandler &prm,
-                      const std::string        &name,
-                      OptionalNumber           &number,
-                      const std::string        &documentation)
+  SizeDistribution::declare(dealii::ParameterHandler &prm)
   {
-    std::ostringstream preset;
-    if (number)
-      preset.precision(17);
-    if (number)
-      preset << *number;
-    else
-      preset << "auto";
-    prm.declare_entry(name, preset.str(), NumberOrAuto(), documentation);
-    prm.add_action(name, [&number](const std::string &text) {
-      number = text == "auto" ? OptionalNumber() : dealii::Utilities::string_to_double(text);
-    });
-  }
-
-  double
-  ParticleKind::simulated_mass() const
-  {
-    return density * sphere_volume(simulated_radius());
+    prm.add_parameter(
+      "size distribution",
+      kind,
+      "Distribution of the original diameters: single (the diameter), list, uniform, "
+      "normal (the diameter is the mean) or log-normal (it is the median).",
+      dealii::Patterns::Selection("single|list|uniform|normal|log-normal"));
+    prm.add_parameter("size measure",
+                      measure,
+                      "Whether shares of sizes are of the mass or of the number of "
+                      "particles.",
+                      dealii::Patterns::Selection("mass|number"));
+    prm.add_parameter("size list",
+                      list,
+                      "Diameters [m] and their shares [-] of a list, as in "
+                      "\"1e-3: 0.4, 2e-3: 0.6\".");
+    prm.add_parameter("size deviation",
+                      deviation,
+                      "Standard deviation of the diameter if normal [m], of its "
+                      "natural logarithm if log-normal [-].");
+    prm.add_parameter("smallest diameter",
+                      smallest,
+                      "Smallest diameter of a distribution; 0: three deviations below "
+                      "the middle [m].");
+    prm.add_parameter("largest diameter",
+                      largest,
+                      "Largest diameter of a distribution; 0: three deviations above "
+                      "the middle [m].");
   }
 
   void
-  ParticleKind::declare_kind(dealii::ParameterHandler &prm)
+  SizeDistribution::check(const double diameter, const std::string &section) const
   {
-    prm.add_parameter("diameter",
-                      diameter,
-                      "Diameter of the original particles, those of the real bed [m].");
+    if (kind == "single")
+      return;
+    if (kind == "list")
+      {
+        require(!shares().empty(),
+                section + "/size list",
+                "write diameters and shares, \"1e-3: 0.4, 2e-3: 0.6\"");
+        for (const auto &share : shares())
+          require(share.diameter > 0. && share.share >= 0.,
+                  section + "/size list",
+                  "diameters are positive, in metres, and shares not negative");
+        return;
+      }
+    require(kind == "uniform" || deviation > 0.,
+            section + "/size deviation",
+            "a normal distribution needs a positive deviation");
+    require(kind != "uniform" || (smallest > 0. && largest > 0.),
+            section + "/smallest diameter",
+            "a uniform distribution needs a smallest and a largest diameter");
+    require(smallest_diameter(diameter) > 0.,
+            section + "/smallest diameter",
+            "the distribution reaches down to nothing: give a smallest diameter");
+    require(smallest_diameter(diameter) <= largest_diameter(diameter),
+            section + "/largest diameter",
+            "the largest diameter lies below the smallest");
+  }
+
+  std::vector<SizeDistribution::Share>
+  SizeDistribution::shares() const
+  {
+    std::vector<Share> result;
+    double             total = 0.;
+    for (const auto &entry : dealii::Utilities::split_string_list(list))
+      {
+        const auto numbers = dealii::Utilities::split_string_list(entry, ':');
+        if (numbers.size() != 2)
+          return {};
+        result.push_back({dealii::Utilities::string_to_double(numbers[0]),
+                          dealii::Utilities::string_to_double(numbers[1])});
+        total += result.back().share;
+      }
+    for (auto &share : result)
+      share.share /= total;
+    std::sort(result.begin(), result.end(), [](const Share &a, const Share &b) {
+      return a.diameter < b.diameter;
+    });
+    return result;
+  }
+
+  double
+  SizeDistribution::smallest_diameter(const double diameter) const
+  {
+    if (kind == "single")
+      return diameter;
+    if (kind == "list")
+      return shares().front().diameter;
+    if (smallest > 0.)
+      return smallest;
+    return kind == "normal" ? diameter - usual_tail * deviation
+                            : diameter * std::exp(-usual_tail * deviation);
+  }
+
+  double
+  SizeDistribution::largest_diameter(const double diameter) const
+  {
+    if (kind == "single")
+      return diameter;
+    if (kind == "list")
+      return shares().back().diameter;
+    if (largest > 0.)
+      return largest;
+    return kind == "normal" ? diameter + usual_tail * deviation
+                            : diameter * std::exp(usual_tail * deviation);
+  }
+
+  double
+  SizeDistribution::quantile(const double share, const double diameter) const
+  {
+    if (kind == "single")
+      return diameter;
+    if (kind == "list")
+      {
+        const auto sorted = shares();
+        double     left   = share;
+        for (const auto &entry : sorted)
+          if ((left -= entry.share) < 0.)
+            return entry.diameter;
+        return sorted.back().diameter;
+      }
+    const double low = smallest_diameter(diameter), high = largest_diameter(diameter);
+    if (kind == "uniform")
+      return low + share * (high - low);
+
+    // The part of the bell between the ends, in d or in ln d.
+    const bool in_logarithm = kind == "log-normal";
+    const auto x = [&](const double d) { return in_logarithm ? std::log(d) : d; };
+    const boost::math::normal bell(x(diameter), deviation);
+    const double              below = boost::math::cdf(bell, x(low));
+    const double              above = boost::math::cdf(bell, x(high));
+    const double p  = std::clamp(below + share * (above - below), 1e-300, 1. - 1e-16);
+    const double at = boost::math::quantile(bell, p);
+    return std::clamp(in_logarithm ? std::exp(at) : at, low, high);
+  }
+
+  double
+  SizeDistribution::mean_volume(const double diameter) const
+  {
+    if (kind == "single")
+      return sphere_volume(diameter / 2.);
+    // A mean by number of V is, over a distribution by mass, one over that of 1/V.
+    double sum = 0.;
+    for (unsigned int k = 0; k < n_samples; ++k)
+      {
+        const double volume =
+          sphere_volume(0.5 * quantile((k + 0.5) / n_samples, diameter));
+        sum += measure == "mass" ? 1. / volume : volume;
+      }
+    return measure == "mass" ? n_samples / sum : sum / n_samples;
+  }
+
+  void
+  ParticleType::declare(dealii::ParameterHandler &prm)
+  {
+    prm.add_parameter("mass fraction",
+                      mass_fraction,
+                      "Share of this type in the mass that is filled in; 0: there is no "
+                      "such type [-].");
+    prm.add_parameter("diameter", diameter, "Diameter of its original particles [m].");
+    prm.add_parameter("scale",
+                      scale,
+                      "Diameter of its simulated particles over that of the original "
+                      "ones [-].");
+    prm.add_parameter("density", density, "Density of its solid [kg/m^3].");
+    prm.add_parameter("Young's modulus",
+                      elasticity.young_modulus,
+                      "Young's modulus of its solid, usually reduced [Pa].");
     prm.add_parameter(
-      "scale",
-      scale,
-      "Diameter of a simulated particle over that of an original one; each "
-      "simulated particle stands for scale^3 original ones [-].");
-    prm.add_parameter("density", density, "Density of the solid [kg/m^3].");
+      "Poisson's ratio", elasticity.poisson_ratio, "Poisson's ratio of its solid [-].");
     sizes.declare(prm);
   }
 
   void
-  ParticleKind::check_kind(const std::string &section, const Cylinder &cylinder) const
+  ParticleType::check(const std::string &section) const
   {
-    require(diameter > 0.,
-            section + "/diameter",
-            "a sphere needs a positive diameter, in metres");
-    require(scale >= 1.,
-            section + "/scale",
-            "scaled particles are larger than the original ones: choose 1 or more");
-    require(
-      density > 0., section + "/density", "a solid needs a positive density, in kg/m^3");
-    sizes.check(section, diameter);
-    const double largest = 2. * largest_radius();
-    require(
-      2. * largest < cylinder.diameter && largest < cylinder.height,
-      section + (sizes.kind == "single" ? "/diameter" : "/size distribution"),
-      "the (largest) simulated diameter " + text_of(largest) +
-        " m does not go twice into the cylinder's diameter " + text_of(cylinder.diameter) +
-        " m and once into its height " + text_of(cylinder.height) +
-        " m: no bed fits. Lengths are in metres; is Particles/scale too large?");
-  }
-
-  void
-  FurtherType::declare(dealii::ParameterHandler &prm)
-  {
-    prm.add_parameter("mass fraction",
-                      mass_fraction,
-                      "Share of this type in the mass that is filled in; the first type "
-                      "makes up the rest. 0: there is no such type [-].");
-    declare_kind(prm);
-    add_optional_number(
-      prm, "Young's modulus", young_modulus, "Young's modulus; auto: of type 1 [Pa].");
-    add_optional_number(
-      prm, "Poisson's ratio", poisson_ratio, "Poisson's ratio; auto: of type 1 [-].");
-    add_optional_number(prm,
-                        "restitution",
-                        restitution,
-                        "Coefficient of restitution within this type; auto: as within "
-                        "type 1. Different types have the harmonic mean [-].");
-    add_optional_number(prm,
-                        "friction",
-                        friction,
-                        "Coefficient of friction within this type; auto: as within type "
-                        "1. Different types have the harmonic mean [-].");
-    add_optional_number(prm,
-                        "rolling resistance",
-                        rolling_resistance,
-                        "Coefficient of rolling resistance within this type; auto: as "
-                        "within type 1. Different types have the harmonic mean [-].");
-    add_optional_number(prm,
-                        "packing friction",
-                        packing_friction,
-                        "Coefficient of friction within this type while the bed is "
-                        "filled and settles; auto: as within type 1 [-].");
-    add_optional_number(prm,
-                        "packing rolling resistance",
-                        packing_rolling,
-                        "Coefficient of rolling resistance within this type while the "
-                        "bed is filled and settles; auto: as within type 1 [-].");
-    add_optional_number(prm,
-                        "adhesion",
-                        adhesion,
-                        "Work of adhesion within this type; auto: as within type 1. "
-                        "Different types have the geometric mean [J/m^2].");
-  }
-
-  void
-  FurtherType::check(const std::string &section, const Cylinder &cylinder) const
-  {
-    check_kind(section, cylinder);
-    require(!young_modulus || *young_modulus > 0.,
+    require(mass_fraction >= 0. && mass_fraction < 1.,
+            section + "/mass fraction",
+            "a share lies between 0 and 1; what is left over is of the first type");
+    if (mass_fraction == 0.)
+      return;
+    require(diameter > 0., section + "/diameter", "a sphere needs a positive diameter");
+    require(scale >= 1., section + "/scale", "choose 1 or more");
+    require(density > 0., section + "/density", "a solid needs a positive density");
+    require(elasticity.young_modulus > 0.,
             section + "/Young's modulus",
             "a solid needs a positive modulus, in pascal");
-    check_optional(poisson_ratio, 0., 0.5, section + "/Poisson's ratio");
-    check_optional(restitution, 0.01, 1., section + "/restitution");
-    check_optional(friction, 0., 10., section + "/friction");
-    check_optional(rolling_resistance, 0., 1., section + "/rolling resistance");
-    check_optional(packing_friction, 0., 10., section + "/packing friction");
-    check_optional(packing_rolling, 0., 1., section + "/packing rolling resistance");
-    check_optional(adhesion, 0., 1e3, section + "/adhesion");
+    require(elasticity.poisson_ratio >= 0. && elasticity.poisson_ratio <= 0.5,
+            section + "/Poisson's ratio",
+            "an isotropic solid has a ratio between 0 and 0.5");
+    sizes.check(diameter, section);
   }
 
-  unsigned int
-  ParticleParameters::n_types() const
+  ParticleSource::ParticleSource(const std::vector<ParticleType> &types)
+    : types(types)
   {
-    return 1 + std::count_if(further.begin(), further.end(), [](const FurtherType &type) {
-             return type.mass_fraction > 0.;
-           });
-  }
-
-  const ParticleKind &
-  ParticleParameters::kind(const unsigned int type) const
-  {
-    if (type == 0)
-      return *this;
-    return further[type - 1];
-  }
-
-  double
-  ParticleParameters::mass_fraction(const unsigned int type) const
-  {
-    if (type > 0)
-      return further[type - 1].mass_fraction;
-    double rest = 1.;
-    for (const auto &other : further)
-      rest -= other.mass_fraction;
-    return std::max(0., rest);
-  }
-
-  double
-  ParticleParameters::smallest_radius() const
-  {
-    double smallest = ParticleKind::smallest_radius();
-    for (unsigned int type = 1; type < n_types(); ++type)
-      smallest = std::min(smallest, kind(type).smallest_radius());
-    return smallest;
-  }
-
-  double
-  ParticleParameters::largest_radius() const
-  {
-    double largest = ParticleKind::largest_radius();
-    for (unsigned int type = 1; type < n_types(); ++type)
-      largest = std::max(largest, kind(type).largest_radius());
-    return largest;
-  }
-
-  void
-  ParticleParameters::declare(dealii::ParameterHandler &prm)
-  {
-    prm.enter_subsection("Particles");
-    declare_kind(prm);
-    prm.add_parameter(
-      "gravity", gravity, "Acceleration of gravity, downwards along the axis [m/s^2].");
-    for (unsigned int type = 1; type <= further.size(); ++type)
+    double numbers = 0.;
+    for (const auto &type : types)
       {
-        prm.enter_subsection("Type " + std::to_string(type + 1));
-        further[type - 1].declare(prm);
-        prm.leave_subsection();
+        number_fraction.push_back(type.mass_fraction / type.mean_mass());
+        numbers += number_fraction.back();
       }
-    prm.leave_subsection();
-  }
-
-  void
-  ParticleParameters::check(const Cylinder &cylinder) const
-  {
-    check_kind("Particles", cylinder);
-    require(gravity >= 0.,
-            "Particles/gravity",
-            "gravity points downwards already; its size cannot be negative");
-    double sum = 0.;
-    for (unsigned int type = 1; type <= further.size(); ++type)
+    for (unsigned int t = 0; t < types.size(); ++t)
       {
-        const std::string section  = "Particles/Type " + std::to_string(type + 1);
-        const double      fraction = further[type - 1].mass_fraction;
-        require(fraction >= 0. && fraction <= 1.,
-                section + "/mass fraction",
-                "a share lies between 0 and 1");
-        require((sum += fraction) <= 1. + 1e-12,
-                section + "/mass fraction",
-                "the types together have more than the whole mass");
-        if (fraction == 0.)
-          continue;
-        require(type == 1 || further[type - 2].mass_fraction > 0.,
-                section + "/mass fraction",
-                "types are numbered without gaps: use the type before it first");
-        further[type - 1].check(section, cylinder);
+        number_fraction[t] /= numbers;
+        mass += number_fraction[t] * types[t].mean_mass();
       }
   }
 } // namespace graupel

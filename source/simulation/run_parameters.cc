@@ -35,7 +35,7 @@ namespace graupel
     cylinder.check();
     dem.check(cylinder);
     mesh.check(cylinder);
-    filling.check(cylinder, dem.particles);
+    filling.check(cylinder, dem);
     settling.check();
     fluid.check();
     coupling.check();

@@ -252,8 +252,8 @@ namespace
     dem.contact.wall_surface.restitution = 1.1;
     EXPECT_EQ(offender([&] { dem.check(cylinder); }), "Contact/wall restitution");
 
-    const ParticleParameters &spheres = SmallColumn::parameters().particles;
-    FillingParameters         filling;
+    const DemParameters spheres = SmallColumn::parameters();
+    FillingParameters   filling;
     EXPECT_EQ(offender([&] { filling.check(cylinder, spheres); }), "Filling/bed height");
     filling = by_count(5);
     EXPECT_EQ(offender([&] { filling.check(cylinder, spheres); }), "");

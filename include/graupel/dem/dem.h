@@ -178,6 +178,20 @@ namespace graupel
 
     /** Volume of all particles [m^3]. */
     double solid_volume() const;
+    /** Mass of all particles [kg]. */
+    double
+    solid_mass() const
+    {
+      return total_mass;
+    }
+
+    /** Mass over volume of all particles [kg/m^3]; of the first type without any. */
+    double
+    mean_density() const
+    {
+      return total_volume > 0. ? total_mass / total_volume : materials.density[0];
+    }
+
     /** Weight of all particles under the gravity of the parameters [N]. */
     double weight() const;
 

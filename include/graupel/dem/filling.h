@@ -2,14 +2,17 @@
 #define graupel_dem_filling_h
 
 #include <graupel/dem/dem.h>
+#include <graupel/dem/random_places.h>
 
 #include <random>
 
 namespace graupel
 {
-  /** How the bed is filled: a rain of particles from below the top. */
+  /** How the bed is filled. */
   struct FillingParameters
   {
+    /** "rain", "packing", "volume" or "list". */
+    std::string method = "rain";
     /** Number of simulated particles [-]; 0: not by number. */
     unsigned int count = 0;
     /** Mass of all particles [kg]; 0: not by mass. */
@@ -20,26 +23,40 @@ namespace graupel
     double drop_speed = 1.;
     /** Time between two layers of the rain [s]; 0: as soon as there is room. */
     double interval = 0.;
+    /** Particles that rain in a second [1/s]; 0: as many as there is room for. */
+    double rate = 0.;
+    /** Section for the method volume [m]; an upper end of 0 is the top. */
+    double lower = 0., upper = 0.;
+    /** CSV file of the method list. */
+    std::string file;
     /** Start of the random numbers [-]. */
     unsigned int seed = 1;
 
     /** Declares the section "Filling". */
     void declare(dealii::ParameterHandler &prm);
     /** Throws InputError for values that cannot be, alone or together. */
-    void check(const Cylinder &cylinder, const ParticleParameters &particles) const;
+    void check(const Cylinder &cylinder, const DemParameters &particles) const;
+
+  private:
+    void check_amount(const Cylinder &cylinder, const DemParameters &particles) const;
   };
 
   /**
-   * The phase that fills the column. In intervals a layer of spheres appears
-   * below the top, each at random where it overlaps nothing, and falls. The
-   * places are the same on any number of ranks.
+   * The phase that fills the column, by one of four methods:
+   * - rain: in intervals a layer of spheres appears below the top, each at random
+   *   where it overlaps nothing, and falls;
+   * - packing: all the space above the bed is filled at once with a loose random
+   *   packing that falls down on it, again and again; the same bed in less time;
+   * - volume: a loose random packing in a section, once;
+   * - list: from a file.
+   * The places are the same on any number of ranks.
    *
    * Constructing it puts the materials of packing in force.
    */
   class Filling
   {
   public:
-    /** @p dem must outlive this object. */
+    /** @p dem must outlive this object. Reads the file of the method list. */
     Filling(const FillingParameters &parameters, Dem &dem);
 
     /**
@@ -66,18 +83,26 @@ namespace graupel
     double expected_height() const;
 
   private:
-    unsigned int                  n_missing();
-    void                          drop_layer(const unsigned int at_most);
-    std::vector<dealii::Point<3>> particles_above(const double z) const;
-    double                        next_random();
+    unsigned int n_missing();
+    void         drop_layer(const unsigned int at_most);
+    void         drop_batch(const unsigned int at_most);
+    void         fill_volume();
+    // Fills a section up to a solid fraction; how many found a place.
+    unsigned int fill_section(const double       lower,
+                              const double       upper,
+                              const unsigned int at_most,
+                              const unsigned int n_tries,
+                              const double       solid_fraction);
+    void         add_obstacles(RandomPlaces &places, const double above) const;
+    double       next_random();
 
     const FillingParameters input;
     Dem                    &dem;
-    const double            radius;
+    const ParticleSource    source;
+    const double            radius; // the largest
     const double            layer_interval;
     std::mt19937_64         generator;
 
-    unsigned int target        = 0;
     double       elapsed       = 0.;
     double       next_drop     = 0.;
     unsigned int barren_layers = 0;

@@ -1,38 +1,95 @@
 #ifndef graupel_dem_particle_types_h
 #define graupel_dem_particle_types_h
 
-#include <graupel/dem/size_distribution.h>
-#include <graupel/mesh/cylinder.h>
+#include <graupel/dem/contact_laws.h>
 
 #include <deal.II/base/parameter_handler.h>
 
-#include <array>
-#include <optional>
 #include <string>
 #include <vector>
 
 namespace graupel
 {
-  /** A number that may be left to a rule: "auto" in the prm file. */
-  using OptionalNumber = std::optional<double>;
-
-  /** Size and density of one type of particles. */
-  struct ParticleKind
+  /** How the diameters of the original particles of one type are distributed. */
+  struct SizeDistribution
   {
-    /** Nominal diameter of the original particles, which the drag laws see [m]. */
+    /** "single", "list", "uniform", "normal" or "log-normal". */
+    std::string kind = "single";
+    /** Whether shares are of the "mass" or of the "number" of particles. */
+    std::string measure = "mass";
+    /** Diameters and shares of a list, "1e-3: 0.4, 2e-3: 0.6" [m: -]. */
+    std::string list;
+    /** Standard deviation of a normal distribution [m], or of ln d if log-normal [-]. */
+    double deviation = 0.;
+    /** Ends of the distribution [m]; 0: three deviations (not for uniform). */
+    double smallest = 0., largest = 0.;
+
+    void declare(dealii::ParameterHandler &prm);
+    /** Throws InputError; @p section is named in it. */
+    void check(const double diameter, const std::string &section) const;
+
+    double smallest_diameter(const double diameter) const;
+    double largest_diameter(const double diameter) const;
+
+    /**
+     * The diameter below which the share @p share, 0 to 1, of the measure lies [m];
+     * @p diameter: the mean, or the median if log-normal.
+     */
+    double quantile(const double share, const double diameter) const;
+
+    /** Mean volume of a particle [m^3], mean by number. */
+    double mean_volume(const double diameter) const;
+
+    /**
+     * A diameter drawn by number [m]; @p random gives numbers even between 0 and 1.
+     * From a distribution by mass, a diameter d is drawn by mass and taken with
+     * probability (smallest / d)^3.
+     */
+    template <class Random>
+    double
+    draw(const double diameter, Random &random) const
+    {
+      const double least = smallest_diameter(diameter);
+      for (;;)
+        {
+          const double d = kind == "single" ? diameter : quantile(random(), diameter);
+          if (measure == "number" || kind == "single")
+            return d;
+          const double ratio = least / d;
+          if (random() < ratio * ratio * ratio)
+            return d;
+        }
+    }
+
+  private:
+    struct Share
+    {
+      double diameter;
+      double share;
+    };
+    // Of the list, by ascending diameter, shares of 1 together.
+    std::vector<Share> shares() const;
+  };
+
+  /** One kind of particles. */
+  struct ParticleType
+  {
+    /** Share of the mass that is filled in [-]. */
+    double mass_fraction = 0.;
+    /** Diameter of the original particles: the one, the mean or the median [m]. */
     double diameter = 1.6e-3;
     /** Diameter of a simulated particle over that of an original one [-]. */
     double scale = 1.;
     /** Density of the solid [kg/m^3]. */
-    double density = 2700.;
-    /** How original diameters scatter around the nominal one. */
+    double           density = 2700.;
+    Elasticity       elasticity{1e7, 0.33};
     SizeDistribution sizes;
 
-    /** Radius of a simulated particle of the nominal diameter [m]. */
+    /** Radius of the largest simulated particle [m]. */
     double
-    simulated_radius() const
+    largest_radius() const
     {
-      return 0.5 * scale * diameter;
+      return 0.5 * scale * sizes.largest_diameter(diameter);
     }
 
     /** Radius of the smallest simulated particle [m]. */
@@ -42,75 +99,58 @@ namespace graupel
       return 0.5 * scale * sizes.smallest_diameter(diameter);
     }
 
-    /** Radius of the largest simulated particle [m]. */
+    /** Mean mass of a simulated particle [kg]. */
     double
-    largest_radius() const
+    mean_mass() const
     {
-      return 0.5 * scale * sizes.largest_diameter(diameter);
+      return density * scale * scale * scale * sizes.mean_volume(diameter);
     }
 
-    /** Mass of a simulated particle of the nominal diameter [kg]. */
-    double simulated_mass() const;
-
-    /** Declares its entries in the section that is open. */
-    void declare_kind(dealii::ParameterHandler &prm);
-    /** @p section is the path of the entries, for errors. */
-    void check_kind(const std::string &section, const Cylinder &cylinder) const;
-  };
-
-  /**
-   * A second, third or fourth type of particles. What is left to "auto" is that of
-   * the first type.
-   */
-  struct FurtherType : ParticleKind
-  {
-    /** Share in the mass that is filled in [-]; zero: there is no such type. */
-    double         mass_fraction = 0.;
-    OptionalNumber young_modulus;
-    OptionalNumber poisson_ratio;
-    /** Of contacts within this type, as Surface. */
-    OptionalNumber restitution;
-    OptionalNumber friction;
-    OptionalNumber rolling_resistance;
-    OptionalNumber packing_friction;
-    OptionalNumber packing_rolling;
-    OptionalNumber adhesion;
-
-    /** Declares its entries in the section that is open. */
+    /** Declares the entries of a subsection "Type n". */
     void declare(dealii::ParameterHandler &prm);
-    void check(const std::string &section, const Cylinder &cylinder) const;
+    void check(const std::string &section) const;
   };
 
-  /** The spheres: the first type, and up to three more. */
-  struct ParticleParameters : ParticleKind
+  /** Type and size of a particle that is to be inserted. */
+  struct DrawnParticle
   {
-    /** Acceleration of gravity, along -z [m/s^2]. */
-    double gravity = 9.81;
-    /** Types 2 to 4. */
-    std::array<FurtherType, 3> further;
-
-    /** Number of types in use; types are numbered from 0 in the program. */
-    unsigned int n_types() const;
-    /** Size and density of a type. */
-    const ParticleKind &kind(const unsigned int type) const;
-    /** Share of a type in the mass that is filled in [-]. */
-    double mass_fraction(const unsigned int type) const;
-
-    /** Radius of the smallest simulated particle of any type [m]. */
-    double smallest_radius() const;
-    /** Radius of the largest simulated particle of any type [m]. */
-    double largest_radius() const;
-
-    /** Declares the section "Particles". */
-    void declare(dealii::ParameterHandler &prm);
-    void check(const Cylinder &cylinder) const;
+    /** Index of the type. */
+    unsigned char type;
+    /** Radius of the simulated particle [m]. */
+    double radius;
   };
 
-  /** Declares an entry that is a number or "auto". */
-  void add_optional_number(dealii::ParameterHandler &prm,
-                           const std::string        &name,
-                           OptionalNumber           &number,
-                           const std::string        &documentation);
+  /** Draws types by their mass fractions and sizes by their distributions. */
+  class ParticleSource
+  {
+  public:
+    explicit ParticleSource(const std::vector<ParticleType> &types);
+
+    /** @p random gives numbers even between 0 and 1. */
+    template <class Random>
+    DrawnParticle
+    draw(Random &random) const
+    {
+      double        chance = random();
+      unsigned char type   = 0;
+      while (type + 1u < types.size() && chance >= number_fraction[type])
+        chance -= number_fraction[type++];
+      const auto &t = types[type];
+      return {type, 0.5 * t.scale * t.sizes.draw(t.diameter, random)};
+    }
+
+    /** Mean mass of a drawn particle [kg]. */
+    double
+    mean_mass() const
+    {
+      return mass;
+    }
+
+  private:
+    std::vector<ParticleType> types;
+    std::vector<double>       number_fraction;
+    double                    mass = 0.;
+  };
 } // namespace graupel
 
 #endif

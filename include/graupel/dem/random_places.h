@@ -1,0 +1,62 @@
+#ifndef graupel_dem_random_places_h
+#define graupel_dem_random_places_h
+
+#include <graupel/dem/particle_arrays.h>
+#include <graupel/mesh/cylinder.h>
+
+#include <functional>
+#include <vector>
+
+namespace graupel
+{
+  /**
+   * Random places for spheres between two heights of a cylinder, each at a distance
+   * of all others and of the wall (random sequential addition).
+   */
+  class RandomPlaces
+  {
+  public:
+    /**
+     * @p lower and @p upper bound the spheres, not their centers [m];
+     * @p largest_radius of all spheres, obstacles included [m]; @p gap: distance
+     * kept, over a sphere's radius [-].
+     */
+    RandomPlaces(const Cylinder &cylinder,
+                 const double    lower,
+                 const double    upper,
+                 const double    largest_radius,
+                 const double    gap);
+
+    /** A sphere that is there already. */
+    void add_obstacle(const dealii::Point<3> &center, const double radius);
+
+    /**
+     * Looks for a place for a sphere, @p n_tries times; the place is taken then.
+     * @p random gives numbers even between 0 and 1. Returns false if there is none.
+     */
+    bool place(const double                   radius,
+               const unsigned int             n_tries,
+               const std::function<double()> &random,
+               dealii::Point<3>              &center);
+
+  private:
+    struct Sphere
+    {
+      dealii::Point<3> center;
+      double           radius;
+    };
+
+    std::array<int, 3> bin(const dealii::Point<3> &x) const;
+    std::size_t        number(const int x, const int y, const int z) const;
+    bool               is_free(const dealii::Point<3> &center, const double radius) const;
+
+    const double                     tube;
+    const double                     lower, upper;
+    const double                     gap;
+    const double                     bin_size;
+    std::array<int, 3>               n_bins;
+    std::vector<std::vector<Sphere>> bins;
+  };
+} // namespace graupel
+
+#endif
