@@ -239,12 +239,21 @@ namespace graupel
         places.add_obstacle(all_centers[rank][k], all_radii[rank][k]);
   }
 
+  double
+  Filling::fallen_speed(const double z) const
+  {
+    return std::sqrt(input.drop_speed * input.drop_speed +
+                     2. * dem.parameters().particles.gravity *
+                       std::max(0., dem.cylinder().height - z));
+  }
+
   unsigned int
   Filling::fill_section(const double       lower,
                         const double       upper,
                         const unsigned int at_most,
                         const unsigned int n_tries,
-                        const double       solid_fraction)
+                        const double       solid_fraction,
+                        const bool         fallen_from_top)
   {
     RandomPlaces places(dem.cylinder(), lower, upper, radius, gap);
     add_obstacles(places, lower - 2. * (1. + gap) * radius);
@@ -263,6 +272,8 @@ namespace graupel
         particle.velocity = dealii::Tensor<1, 3>({0., 0., -input.drop_speed});
         if (!places.place(drawn.radius, n_tries, random, particle.position))
           break;
+        if (fallen_from_top)
+          particle.velocity[2] = -fallen_speed(particle.position[2]);
         solid += sphere_volume(drawn.radius);
         added.push_back(particle);
       }
@@ -284,7 +295,7 @@ namespace graupel
           ? std::max(1u, static_cast<unsigned int>(input.rate * layer_interval))
           : at_most;
     const unsigned int n =
-      fill_section(lower, upper, std::min(at_most, by_rate), n_tries, 1.);
+      fill_section(lower, upper, std::min(at_most, by_rate), n_tries, 1., false);
 
     barren_layers = n == 0 ? barren_layers + 1 : 0;
     if (barren_layers > most_barren_layers)
@@ -306,7 +317,7 @@ namespace graupel
       dem.n_global() == 0 ? 0. : expected_height() + batch_clearance * d;
     if (upper - lower < least_batch * d)
       return drop_layer(at_most);
-    fill_section(lower, upper, at_most, most_tries, loose_solid_fraction);
+    fill_section(lower, upper, at_most, most_tries, loose_solid_fraction, true);
 
     // Until the last of them has come down on the others.
     const double way =
@@ -322,7 +333,7 @@ namespace graupel
     const double upper = input.upper > 0. ? input.upper : dem.cylinder().height;
     unsigned int missing;
     while ((missing = n_missing()) > 0)
-      if (fill_section(input.lower, upper, missing, most_tries, 1.) == 0)
+      if (fill_section(input.lower, upper, missing, most_tries, 1., false) == 0)
         throw DemError("the section from " + std::to_string(input.lower) + " m to " +
                        std::to_string(upper) + " m has no room for more than " +
                        std::to_string(dem.n_global()) +

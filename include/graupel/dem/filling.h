@@ -46,7 +46,8 @@ namespace graupel
    * - rain: in intervals a layer of spheres appears below the top, each at random
    *   where it overlaps nothing, and falls;
    * - packing: all the space above the bed is filled at once with a loose random
-   *   packing that falls down on it, again and again; the same bed in less time;
+   *   packing that falls down on it, again and again, as fast as if it came from the
+   *   top; the same bed in less time;
    * - volume: a loose random packing in a section, once;
    * - list: from a file.
    * The places are the same on any number of ranks.
@@ -87,12 +88,15 @@ namespace graupel
     void         drop_layer(const unsigned int at_most);
     void         drop_batch(const unsigned int at_most);
     void         fill_volume();
+    // Speed at a height of what has rained from the top [m/s].
+    double fallen_speed(const double z) const;
     // Fills a section up to a solid fraction; how many found a place.
     unsigned int fill_section(const double       lower,
                               const double       upper,
                               const unsigned int at_most,
                               const unsigned int n_tries,
-                              const double       solid_fraction);
+                              const double       solid_fraction,
+                              const bool         fallen_from_top);
     void         add_obstacles(RandomPlaces &places, const double above) const;
     double       next_random();
 
