@@ -34,7 +34,9 @@ namespace graupel
               {n[13], n[14], n[15]}};
     }
 
-    // How many blocks the memory is asked in advance.
+    // Up to here the particles stay in the cache; beyond, memory is asked in advance.
+    constexpr unsigned int most_cached_rows = 30000;
+    // How many blocks in advance.
     constexpr std::size_t blocks_ahead = 4;
 
     [[gnu::always_inline]] inline void
@@ -208,13 +210,14 @@ namespace graupel
     const double first_mass  = 4. / 3. * PI * first_density;
     const double second_mass = 4. / 3. * PI * second_density;
     const double to_force = 1. / quantum.force, to_torque = 1. / quantum.torque;
-    const Body  *bodies = particles.body.data();
-    Load        *sums   = particles.load.data();
+    const Body  *bodies      = particles.body.data();
+    Load        *sums        = particles.load.data();
+    const bool   fetch_ahead = particles.n_rows() > most_cached_rows;
 
     for (std::size_t b = 0; b < contacts.blocks.size(); ++b)
       {
         ContactList::Block &block = contacts.blocks[b];
-        if (b + blocks_ahead < contacts.blocks.size())
+        if (fetch_ahead && b + blocks_ahead < contacts.blocks.size())
           prefetch(contacts.blocks[b + blocks_ahead], bodies, sums);
         const BodyLanes i = load_bodies(bodies, block.first);
         const BodyLanes j = load_bodies(bodies, block.second);
