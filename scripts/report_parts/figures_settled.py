@@ -23,7 +23,7 @@ def bed_radial(run, paper):
     axes = figure.subplots()
     axes.plot(distance, table["void_fraction"], color=BLUE, label="settled bed")
     axes.plot(distance, table["de_klerk"], "--", color=VERMILLION, linewidth=1.2, label="de Klerk")
-    unit = "particle diameters [-]" if in_diameters else "[mm]"
+    unit = "over the particle diameter [-]" if in_diameters else "[mm]"
     axes.set_xlabel(f"distance from the wall {unit}")
     axes.set_ylabel("void fraction [-]")
     axes.set_xlim(left=0.0)
