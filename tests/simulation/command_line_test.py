@@ -155,15 +155,15 @@ class ShortRun(unittest.TestCase):
         self.assertEqual(finished.returncode, 0, finished.stderr)
 
     def test_a_failure_during_the_run_is_told_in_a_sentence(self):
-        # The expression passes the checks at the void fractions of a packed bed,
-        # but goes negative at those of its surface.
+        # The expression passes the checks, at void fractions of 0.3, 0.4 to 0.7, but
+        # is negative between the last two, where the particles at the surface are.
         with tempfile.TemporaryDirectory() as folder:
             finished = call(
                 SHORT,
                 "--set",
                 "Coupling/scaling=expression",
                 "--set",
-                "Coupling/scaling expression=Cd*(0.72-alpha)",
+                "Coupling/scaling expression=Cd*(abs(alpha-0.65)-0.045)",
                 "--output",
                 folder,
             )

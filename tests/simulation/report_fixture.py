@@ -50,7 +50,7 @@ def summary_of(cases, scale=1.0, vessel=VESSEL, original=1.6e-3):
     return {
         "program": {
             "name": "graupel",
-            "version": "0.1.0",
+            "version": "0.2.0",
             "deal_ii_version": "9.4.1",
             "mpi_ranks": 2,
             "parameter_file": "prm/packed-bed/<sweep>.prm",
