@@ -115,6 +115,8 @@ namespace graupel
     require(surface_unit > 0.,
             "Walls/surface unit",
             "a unit of length is positive, in metres: 1e-3 for millimetres");
+    for (const auto &text : dealii::Utilities::split_string_list(planes))
+      read_plane(text);
   }
 
   std::vector<Wall>

@@ -87,8 +87,11 @@ namespace graupel
     progress.say(mesh_line.str());
     fill();
     settle();
-    build_fluid();
-    flow();
+    if (!parameters.sweep.superficial_velocities.empty())
+      {
+        build_fluid();
+        flow();
+      }
     write_summary_file();
   }
 

@@ -43,6 +43,11 @@ namespace graupel
     flow.check();
     sweep.check();
     output.check();
+    require(!dem.walls.is_periodic() || sweep.superficial_velocities.empty(),
+            "Walls/top",
+            "the fluid enters at the bottom and leaves at the top, so the ends cannot be "
+            "periodic while it flows; leave Flow/superficial velocities empty for "
+            "particles alone");
     require(
       filter_length() <= cylinder.diameter,
       "Coupling/filter length",

@@ -168,7 +168,9 @@ namespace
         const auto states = column.dem.contact_states();
         for (const auto &state : states)
           if (state.second < 0 && wall_of(state.second) == 3)
-            EXPECT_NEAR(state.normal[2], -1., 1e-9);
+            {
+              EXPECT_NEAR(state.normal[2], -1., 1e-9);
+            }
       }
     for (unsigned int n = 0; n < after[0].size(); ++n)
       EXPECT_NEAR((after[0][n] - after[1][n]).norm(), 0., 1e-9) << n;

@@ -109,6 +109,9 @@ INSTANTIATE_TEST_SUITE_P(Values,
                                          "Flow/superficial velocities=0.3, -0.4",
                                          "Flow/flow-throughs=0",
                                          "Flow solver/linear tolerance=0",
+                                         "Walls/top=periodic",
+                                         "Walls/planes=1 2 3",
+                                         "Contact/pairs=1-9 friction 0.1",
                                          "Output/annuli=1"));
 
 TEST(Parameters, ParticlesMustFitIntoTheVessel)
