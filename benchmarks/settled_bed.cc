@@ -308,7 +308,7 @@ namespace
 
     // Room above the bed: a lid would carry load.
     const Cylinder     cylinder{0.025, top_of(bed) + 4. * bed.radius};
-    CylinderMesh mesh(cylinder, {options.cell_size}, MPI_COMM_WORLD);
+    VesselMesh mesh(cylinder, {options.cell_size}, MPI_COMM_WORLD);
     CostSheet          costs;
     Dem                dem(parameters, mesh, costs);
     const double       baseline = peak_memory();

@@ -37,7 +37,7 @@ namespace graupel
     }
   } // namespace
 
-  Dem::Dem(const DemParameters &parameters, CylinderMesh &mesh, CostSheet &costs)
+  Dem::Dem(const DemParameters &parameters, VesselMesh &mesh, CostSheet &costs)
     : input(parameters)
     , mesh(mesh)
     , costs(costs)

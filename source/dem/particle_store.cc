@@ -101,7 +101,7 @@ namespace graupel
     }
   } // namespace
 
-  ParticleStore::ParticleStore(CylinderMesh &mesh)
+  ParticleStore::ParticleStore(VesselMesh &mesh)
     : mesh(mesh)
     , cache(mesh.triangulation(), mesh.mapping())
     , handler(mesh.triangulation(), mesh.mapping(), n_label_parts)

@@ -72,18 +72,18 @@ namespace graupel
       std::vector<double>{0., 0., superficial_velocity, 0.});
     dealii::VectorTools::interpolate_boundary_values(nodes.mesh.mapping(),
                                                      space.dof_handler,
-                                                     CylinderMesh::bottom,
+                                                     VesselMesh::bottom,
                                                      inflow,
                                                      constraints,
                                                      dealii::ComponentMask(flux_mask));
     if (parameters.wall == "slip")
       dealii::VectorTools::compute_no_normal_flux_constraints(
-        space.dof_handler, 0, {CylinderMesh::wall}, constraints, nodes.mesh.mapping());
+        space.dof_handler, 0, {VesselMesh::wall}, constraints, nodes.mesh.mapping());
     else
       dealii::VectorTools::interpolate_boundary_values(
         nodes.mesh.mapping(),
         space.dof_handler,
-        CylinderMesh::wall,
+        VesselMesh::wall,
         dealii::Functions::ZeroFunction<3>(unknowns_per_node),
         constraints,
         dealii::ComponentMask(flux_mask));
@@ -265,10 +265,10 @@ namespace graupel
   }
 
   double
-  FlowSolver::mean_pressure(const CylinderMesh::Boundary boundary) const
+  FlowSolver::mean_pressure(const VesselMesh::Boundary boundary) const
   {
     double area = 0., sum = 0.;
-    for (const auto &point : boundary == CylinderMesh::top ? space.top : space.bottom)
+    for (const auto &point : boundary == VesselMesh::top ? space.top : space.bottom)
       {
         area += point.weight;
         for (unsigned int a = 0; a < nodes_per_cell; ++a)

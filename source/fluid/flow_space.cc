@@ -97,7 +97,7 @@ namespace graupel
         {
           for (const unsigned int f : cell->face_indices())
             if (cell->face(f)->at_boundary() &&
-                cell->face(f)->boundary_id() != CylinderMesh::wall)
+                cell->face(f)->boundary_id() != VesselMesh::wall)
               {
                 values.reinit(cell, f);
                 for (const unsigned int q : values.quadrature_point_indices())
@@ -107,7 +107,7 @@ namespace graupel
                     point.weight = values.JxW(q);
                     for (unsigned int a = 0; a < nodes_per_cell; ++a)
                       point.value[a] = values.shape_value(a, q);
-                    (cell->face(f)->boundary_id() == CylinderMesh::top ? top : bottom)
+                    (cell->face(f)->boundary_id() == VesselMesh::top ? top : bottom)
                       .push_back(point);
                   }
               }

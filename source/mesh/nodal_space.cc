@@ -6,7 +6,7 @@
 
 namespace graupel
 {
-  NodalSpace::NodalSpace(const CylinderMesh &mesh)
+  NodalSpace::NodalSpace(const VesselMesh &mesh)
     : mesh(mesh)
     , fe(1)
     , quadrature(dealii::QGauss<3>(2))

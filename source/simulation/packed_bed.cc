@@ -248,8 +248,8 @@ namespace graupel
     MonitorRow row;
     row.time          = time;
     row.phase         = phase;
-    row.pressure_drop = fluid->mean_pressure(CylinderMesh::bottom) -
-                        fluid->mean_pressure(CylinderMesh::top);
+    row.pressure_drop = fluid->mean_pressure(VesselMesh::bottom) -
+                        fluid->mean_pressure(VesselMesh::top);
     row.bed_height   = observables.bed().height;
     row.bottom_force = dem.bottom_force();
     row.wall_force   = dem.wall_force();

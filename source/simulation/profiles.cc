@@ -95,7 +95,7 @@ namespace graupel
   std::vector<PlanePoint>
   mid_plane(const FlowFields &fields, const unsigned int n_across)
   {
-    const CylinderMesh &mesh = fields.nodes.mesh;
+    const VesselMesh &mesh = fields.nodes.mesh;
     // A hair inside: the mapped boundary is not exactly the circle.
     const double       half   = mesh.cylinder().diameter / 2. * (1. - 1e-3);
     const double       height = mesh.cylinder().height * (1. - 1e-6);

@@ -87,7 +87,7 @@ namespace
     }
 
     CostSheet        costs;
-    CylinderMesh     mesh;
+    VesselMesh     mesh;
     NodalSpace       nodes;
     Dem              dem;
     Filter           filter;
@@ -240,7 +240,7 @@ TEST(Exchange, KeepsItsLedgerOnARandomPacking)
       EXPECT_LE(exchange.momentum_imbalance(), 1e-10);
     }
   const double drop =
-    flow.mean_pressure(CylinderMesh::bottom) - flow.mean_pressure(CylinderMesh::top);
+    flow.mean_pressure(VesselMesh::bottom) - flow.mean_pressure(VesselMesh::top);
   const double force = drop * packing.mesh.cylinder().cross_section();
   std::cout << "force " << exchange.total_force()[2] << " N of " << force << " N"
             << std::endl;

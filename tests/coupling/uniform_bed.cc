@@ -17,7 +17,7 @@ TEST(UniformBed, EveryLawAndScalingGivesItsClosedForm)
   const FluidProperties fluid;
   const double          alpha = 0.4, velocity = 0.4, diameter = 1.6e-3, length = 0.05;
   CostSheet             costs;
-  const CylinderMesh    mesh({0.025, length}, {6.4e-3, 0.}, MPI_COMM_WORLD);
+  const VesselMesh    mesh({0.025, length}, {6.4e-3, 0.}, MPI_COMM_WORLD);
   const NodalSpace      nodes(mesh);
   FlowParameters        parameters;
   parameters.linear_tolerance = 1e-11;
@@ -44,8 +44,8 @@ TEST(UniformBed, EveryLawAndScalingGivesItsClosedForm)
           for (unsigned int step = 0; step < 4; ++step)
             flow.step(medium, 0.1);
 
-          const double gradient = (flow.mean_pressure(CylinderMesh::bottom) -
-                                   flow.mean_pressure(CylinderMesh::top)) /
+          const double gradient = (flow.mean_pressure(VesselMesh::bottom) -
+                                   flow.mean_pressure(VesselMesh::top)) /
                                   length;
           const double expected = n * beta * velocity / (alpha * alpha);
           EXPECT_NEAR(gradient, expected, 1e-8 * expected)

@@ -93,7 +93,7 @@ namespace
   // The middle of a face between two ranks, well inside, and its normal; of some
   // face if there is one rank only. The same on all ranks.
   std::pair<Point<3>, Vector>
-  border(const CylinderMesh &mesh)
+  border(const VesselMesh &mesh)
   {
     std::vector<double> found;
     for (const auto &cell : mesh.triangulation().active_cell_iterators())

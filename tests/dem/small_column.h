@@ -121,7 +121,7 @@ namespace graupel
       return all;
     }
 
-    CylinderMesh mesh;
+    VesselMesh mesh;
     CostSheet    costs;
     Dem          dem;
   };

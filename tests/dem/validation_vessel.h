@@ -80,7 +80,7 @@ namespace graupel
           p.external_force[i] = force;
     }
 
-    CylinderMesh mesh;
+    VesselMesh mesh;
     CostSheet    costs;
     Dem          dem;
   };

@@ -44,12 +44,12 @@ namespace
     double
     pressure_drop() const
     {
-      return flow.mean_pressure(CylinderMesh::bottom) -
-             flow.mean_pressure(CylinderMesh::top);
+      return flow.mean_pressure(VesselMesh::bottom) -
+             flow.mean_pressure(VesselMesh::top);
     }
 
     CostSheet    costs;
-    CylinderMesh mesh;
+    VesselMesh mesh;
     NodalSpace   nodes;
     FlowSolver   flow;
     Medium       medium;

@@ -4,7 +4,7 @@
 #include <deal.II/grid/grid_tools.h>
 
 #include <graupel/base/parameters.h>
-#include <graupel/mesh/cylinder.h>
+#include <graupel/mesh/vessel_mesh.h>
 
 #include <gtest/gtest.h>
 
@@ -19,7 +19,7 @@ namespace
 
   // Volume and areas by quadrature with the mesh's own mapping, over all ranks.
   Measures
-  measure(const CylinderMesh &mesh)
+  measure(const VesselMesh &mesh)
   {
     const dealii::FE_Nothing<3> nothing;
     const dealii::QGauss<3>     points(3);
@@ -48,19 +48,19 @@ namespace
       return dealii::Utilities::MPI::sum(value, mesh.communicator());
     };
     return {total(sum.volume),
-            total(areas[CylinderMesh::wall]),
-            total(areas[CylinderMesh::bottom]),
-            total(areas[CylinderMesh::top])};
+            total(areas[VesselMesh::wall]),
+            total(areas[VesselMesh::bottom]),
+            total(areas[VesselMesh::top])};
   }
 } // namespace
 
-TEST(CylinderMesh, FillsTheCylinderToTheOrderOfTheMapping)
+TEST(VesselMesh, FillsTheCylinderToTheOrderOfTheMapping)
 {
   const Cylinder cylinder;
   double         last_error = 0.;
   for (const double cell_size : {6.4e-3, 3.2e-3})
     {
-      const CylinderMesh mesh(cylinder, {cell_size}, MPI_COMM_WORLD);
+      const VesselMesh mesh(cylinder, {cell_size}, MPI_COMM_WORLD);
       const Measures     found  = measure(mesh);
       const double       volume = cylinder.cross_section() * cylinder.height;
       const double       error  = std::abs(found.volume / volume - 1.);
@@ -82,15 +82,15 @@ TEST(CylinderMesh, FillsTheCylinderToTheOrderOfTheMapping)
     }
 }
 
-TEST(CylinderMesh, HasTheCellsOfThePaperColumn)
+TEST(VesselMesh, HasTheCellsOfThePaperColumn)
 {
-  const CylinderMesh mesh(Cylinder{}, {3.2e-3}, MPI_COMM_WORLD);
+  const VesselMesh mesh(Cylinder{}, {3.2e-3}, MPI_COMM_WORLD);
   EXPECT_EQ(mesh.triangulation().n_global_active_cells(), 2496u);
   EXPECT_GE(mesh.smallest_edge(), 1.5e-3);
   EXPECT_LE(mesh.smallest_edge(), 3.2e-3);
 }
 
-TEST(CylinderMesh, RefusesImpossibleSizes)
+TEST(VesselMesh, RefusesImpossibleSizes)
 {
   const auto parameter_refused = [](const auto &action) -> std::string {
     try

@@ -62,7 +62,7 @@ TEST(Profiles, AverageLinearFieldsExactly)
 {
   // p = 5 - 100 z: every slab's mean pressure is that of its mean height, and
   // the value between two slabs is linear.
-  const CylinderMesh mesh({0.025, 0.05}, {3.2e-3, 0.}, MPI_COMM_WORLD);
+  const VesselMesh mesh({0.025, 0.05}, {3.2e-3, 0.}, MPI_COMM_WORLD);
   const NodalSpace   nodes(mesh);
   NodalVector        pressure, alpha, flux;
   for (NodalVector *vector : {&pressure, &alpha, &flux})

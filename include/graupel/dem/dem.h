@@ -24,7 +24,7 @@ namespace graupel
   {
   public:
     /** @p mesh and @p costs must outlive this object; @p parameters are checked. */
-    Dem(const DemParameters &parameters, CylinderMesh &mesh, CostSheet &costs);
+    Dem(const DemParameters &parameters, VesselMesh &mesh, CostSheet &costs);
 
     /**
      * Adds simulated particles. The same call on every rank, collective. Own rows
@@ -245,7 +245,7 @@ namespace graupel
     bool has_external_forces() const;
 
     const DemParameters  input;
-    CylinderMesh        &mesh;
+    VesselMesh        &mesh;
     CostSheet           &costs;
     const double         longest_substep;
     const double         skin;

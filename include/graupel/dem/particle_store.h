@@ -3,7 +3,7 @@
 
 #include <graupel/dem/loose_contact.h>
 #include <graupel/dem/particle_arrays.h>
-#include <graupel/mesh/cylinder.h>
+#include <graupel/mesh/vessel_mesh.h>
 
 #include <deal.II/grid/grid_tools_cache.h>
 #include <deal.II/particles/particle_handler.h>
@@ -34,7 +34,7 @@ namespace graupel
                          const std::vector<dealii::Point<3>> &reference_locations)>;
 
     /** @p mesh must outlive the store. */
-    explicit ParticleStore(CylinderMesh &mesh);
+    explicit ParticleStore(VesselMesh &mesh);
 
     /**
      * Adds particles with the next free ids, behind the own rows of
@@ -143,7 +143,7 @@ namespace graupel
       std::vector<dealii::Point<3>> reference_locations;
     };
 
-    CylinderMesh                         &mesh;
+    VesselMesh                         &mesh;
     dealii::GridTools::Cache<3>           cache;
     dealii::Particles::ParticleHandler<3> handler;
     std::vector<CellRows>                 cells;

@@ -86,7 +86,7 @@ namespace graupel
     NodalVectorField pressure_gradient() const;
 
     /** Mean pressure over the bottom or the top [Pa]. */
-    double mean_pressure(const CylinderMesh::Boundary boundary) const;
+    double mean_pressure(const VesselMesh::Boundary boundary) const;
 
     /** Volume that leaves through the top [m^3/s]. */
     double outflow() const;

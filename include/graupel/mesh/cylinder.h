@@ -2,10 +2,6 @@
 #define graupel_mesh_cylinder_h
 
 #include <deal.II/base/parameter_handler.h>
-#include <deal.II/distributed/tria.h>
-#include <deal.II/fe/mapping_q.h>
-
-#include <functional>
 
 namespace graupel
 {
@@ -23,82 +19,6 @@ namespace graupel
     void declare(dealii::ParameterHandler &prm);
     /** Throws InputError unless both lengths are positive. */
     void check() const;
-  };
-
-  /** How finely the cylinder is cut into hexahedra. */
-  struct MeshParameters
-  {
-    /** Aimed-at edge length of a cell across the vessel [m]. */
-    double cell_size = 3.2e-3;
-    /** Aimed-at height of a cell [m]; 0: as across. */
-    double cell_height = 0.;
-
-    void declare(dealii::ParameterHandler &prm);
-    void check(const Cylinder &cylinder) const;
-  };
-
-  /**
-   * A distributed mesh of hexahedra (a p4est forest) that fills the cylinder
-   * exactly up to the order of the mapping.
-   *
-   * The mapping has degree 2: degree 1 would cut 2.5 % of the volume off at
-   * the wall, and lose particles that lie there.
-   */
-  class CylinderMesh
-  {
-  public:
-    /** Boundary ids. */
-    enum Boundary : dealii::types::boundary_id
-    {
-      wall   = 0,
-      bottom = 1,
-      top    = 2
-    };
-
-    CylinderMesh(const Cylinder       &cylinder,
-                 const MeshParameters &parameters,
-                 MPI_Comm              communicator);
-
-    const dealii::parallel::distributed::Triangulation<3> &
-    triangulation() const
-    {
-      return forest;
-    }
-
-    const dealii::Mapping<3> &
-    mapping() const
-    {
-      return quadratic;
-    }
-
-    const Cylinder &
-    cylinder() const
-    {
-      return vessel;
-    }
-
-    MPI_Comm
-    communicator() const
-    {
-      return forest.get_communicator();
-    }
-
-    /**
-     * Divides the cells among the ranks anew, so that the sum of @p weight is
-     * even. Everything that knows the old partition is void. Collective.
-     */
-    void repartition(
-      const std::function<unsigned int(
-        const dealii::parallel::distributed::Triangulation<3>::active_cell_iterator &)>
-        &weight);
-
-    /** The smallest distance between two vertices of one cell, over all ranks [m]. */
-    double smallest_edge() const;
-
-  private:
-    Cylinder                                        vessel;
-    dealii::parallel::distributed::Triangulation<3> forest;
-    dealii::MappingQ<3>                             quadratic;
   };
 } // namespace graupel
 

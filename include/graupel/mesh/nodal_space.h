@@ -1,7 +1,7 @@
 #ifndef graupel_mesh_nodal_space_h
 #define graupel_mesh_nodal_space_h
 
-#include <graupel/mesh/cylinder.h>
+#include <graupel/mesh/vessel_mesh.h>
 
 #include <deal.II/base/quadrature.h>
 #include <deal.II/dofs/dof_handler.h>
@@ -23,9 +23,9 @@ namespace graupel
   {
   public:
     /** @p mesh must outlive this object. */
-    explicit NodalSpace(const CylinderMesh &mesh);
+    explicit NodalSpace(const VesselMesh &mesh);
 
-    const CylinderMesh   &mesh;
+    const VesselMesh     &mesh;
     const dealii::FE_Q<3> fe;
     /** The rule that all integrals over cells share, so that sums of them agree to
      * round-off. */

@@ -51,7 +51,7 @@ namespace graupel
     const MPI_Comm      communicator;
 
     Summary        summary;
-    CylinderMesh   mesh;
+    VesselMesh   mesh;
     Dem            dem;
     BedObservables observables;
 

@@ -53,7 +53,7 @@ namespace graupel
       return all;
     }
 
-    CylinderMesh mesh;
+    VesselMesh mesh;
     CostSheet    costs;
     Dem          dem;
   };

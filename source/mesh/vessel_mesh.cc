@@ -1,4 +1,4 @@
-#include <graupel/mesh/cylinder.h>
+#include <graupel/mesh/vessel_mesh.h>
 
 #include <deal.II/grid/grid_generator.h>
 #include <deal.II/grid/grid_tools.h>
@@ -75,22 +75,22 @@ namespace graupel
               const double z         = face->center()[2];
               const double tolerance = 1e-6 * cylinder.height;
               if (z < tolerance)
-                face->set_boundary_id(CylinderMesh::bottom);
+                face->set_boundary_id(VesselMesh::bottom);
               else if (z > cylinder.height - tolerance)
-                face->set_boundary_id(CylinderMesh::top);
+                face->set_boundary_id(VesselMesh::top);
               else
-                face->set_boundary_id(CylinderMesh::wall);
+                face->set_boundary_id(VesselMesh::wall);
             }
       for (const auto &cell : solid.active_cell_iterators())
         for (const auto &face : cell->face_iterators())
-          if (face->at_boundary() && face->boundary_id() == CylinderMesh::wall)
+          if (face->at_boundary() && face->boundary_id() == VesselMesh::wall)
             face->set_all_manifold_ids(curved);
     }
   } // namespace
 
-  CylinderMesh::CylinderMesh(const Cylinder       &cylinder,
-                             const MeshParameters &parameters,
-                             MPI_Comm              communicator)
+  VesselMesh::VesselMesh(const Cylinder       &cylinder,
+                         const MeshParameters &parameters,
+                         MPI_Comm              communicator)
     : vessel(cylinder)
     , forest(communicator,
              dealii::Triangulation<3>::limit_level_difference_at_vertices,
@@ -111,7 +111,7 @@ namespace graupel
   }
 
   void
-  CylinderMesh::repartition(
+  VesselMesh::repartition(
     const std::function<unsigned int(
       const dealii::parallel::distributed::Triangulation<3>::active_cell_iterator &)>
       &weight)
@@ -126,7 +126,7 @@ namespace graupel
   }
 
   double
-  CylinderMesh::smallest_edge() const
+  VesselMesh::smallest_edge() const
   {
     double smallest = std::numeric_limits<double>::max();
     for (const auto &cell : forest.active_cell_iterators())
