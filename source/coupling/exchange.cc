@@ -100,13 +100,30 @@ namespace graupel
   void
   Exchange::update(const ParticleStore &store, const ParticleArrays &particles)
   {
-    {
-      const CostSheet::Scope timing(costs, CostSheet::void_fraction);
-      transfer.update(store);
-      deposit_void_fraction(particles);
-    }
+    update_void_fraction(store, particles);
     const CostSheet::Scope timing(costs, CostSheet::exchange);
     deposit_drag(particles);
+  }
+
+  void
+  Exchange::update_void_fraction(const ParticleStore  &store,
+                                 const ParticleArrays &particles)
+  {
+    const CostSheet::Scope timing(costs, CostSheet::void_fraction);
+    transfer.update(store);
+    deposit_void_fraction(particles);
+  }
+
+  void
+  Exchange::follow(const NodalVectorField &flux, const NodalVector &void_fraction)
+  {
+    for (unsigned int i = 0; i < 3; ++i)
+      {
+        for (unsigned int k = 0; k < interstitial[i].locally_owned_size(); ++k)
+          interstitial[i].local_element(k) =
+            flux[i].local_element(k) / void_fraction.local_element(k);
+        filter.smooth(smooth_velocity[i], interstitial[i]);
+      }
   }
 
   void
@@ -179,16 +196,13 @@ namespace graupel
   {
     const CostSheet::Scope timing(costs, CostSheet::exchange);
     const NodalVectorField pressure_gradient = flow.pressure_gradient();
+    follow(flow.flux(), result.void_fraction);
 
     std::vector<dealii::Tensor<1, 3>> force(particles.n_owned);
     std::vector<double>               velocity, gradient;
     fluid_force = 0.;
     for (unsigned int i = 0; i < 3; ++i)
       {
-        for (unsigned int k = 0; k < interstitial[i].locally_owned_size(); ++k)
-          interstitial[i].local_element(k) =
-            flow.flux()[i].local_element(k) / result.void_fraction.local_element(k);
-        filter.smooth(smooth_velocity[i], interstitial[i]);
         filter.smooth(smooth_gradient[i], pressure_gradient[i]);
         transfer.sample(velocity, smooth_velocity[i]);
         transfer.sample(gradient, smooth_gradient[i]);

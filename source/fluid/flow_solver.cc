@@ -151,6 +151,22 @@ namespace graupel
   }
 
   void
+  FlowSolver::continue_from(const NodalVectorField &flux,
+                            const NodalVector      &pressure,
+                            const NodalVector      &void_fraction)
+  {
+    for (unsigned int k = 0; k < pressure.locally_owned_size(); ++k)
+      {
+        for (unsigned int i = 0; i < 3; ++i)
+          solution.block(0).local_element(3 * k + i) = flux[i].local_element(k);
+        solution.block(1).local_element(k) = pressure.local_element(k);
+      }
+    publish();
+    alpha_old   = void_fraction;
+    known_media = 1;
+  }
+
+  void
   FlowSolver::publish()
   {
     const unsigned int n = pressure_now.locally_owned_size();

@@ -89,7 +89,7 @@ namespace graupel
     settle();
     if (!parameters.sweep.superficial_velocities.empty())
       {
-        build_fluid();
+        start_fluid();
         flow();
       }
     write_summary_file();
@@ -105,21 +105,11 @@ namespace graupel
   }
 
   void
-  PackedBed::build_fluid()
+  PackedBed::start_fluid()
   {
     const double substeps = parameters.sweep.time_step / dem.substep();
     dem.balance(particle_substeps_of_cell / std::max(1., substeps));
-    nodes.emplace(mesh);
-    fluid.emplace(parameters.flow,
-                  parameters.fluid.density,
-                  parameters.fluid.viscosity,
-                  *nodes,
-                  summary.costs);
-    std::vector<DragOfType> drags;
-    for (const auto &type : parameters.dem.types())
-      drags.push_back({Drag(parameters.drag, parameters.fluid, type.diameter, type.scale),
-                       0.5 * type.scale * type.diameter});
-    exchange.emplace(parameters.filter_length(), drags, *nodes, summary.costs);
+    coupled.emplace(parameters, mesh, dem, summary.costs);
   }
 
   void
@@ -198,7 +188,7 @@ namespace graupel
     SteadyMonitor steady(
       parameters.sweep.steady_window, parameters.sweep.steady_tolerance, dem.weight());
     case_rows.clear();
-    fluid->set_superficial_velocity(superficial_velocity);
+    coupled->set_superficial_velocity(superficial_velocity);
     for (unsigned int step = 0; step < n_steps; ++step)
       {
         step_fluid(duration / n_steps);
@@ -228,18 +218,12 @@ namespace graupel
   void
   PackedBed::step_fluid(const double step)
   {
-    dem.synchronise();
-    exchange->update(dem.store(), dem.particles());
-    last_report                    = fluid->step(exchange->medium(), step);
-    dem.particles().external_force = exchange->forces(dem.particles(),
-                                                      *fluid,
-                                                      parameters.fluid.density,
-                                                      parameters.dem.particles.gravity);
+    last_report = coupled->step(step);
     dem.advance(step);
     time += step;
     summary.ledger.record(last_report.mass_imbalance,
-                          exchange->momentum_imbalance(),
-                          exchange->solid_volume_error());
+                          coupled->exchange().momentum_imbalance(),
+                          coupled->exchange().solid_volume_error());
   }
 
   MonitorRow
@@ -248,19 +232,18 @@ namespace graupel
     MonitorRow row;
     row.time          = time;
     row.phase         = phase;
-    row.pressure_drop = fluid->mean_pressure(VesselMesh::bottom) -
-                        fluid->mean_pressure(VesselMesh::top);
-    row.bed_height   = observables.bed().height;
-    row.bottom_force = dem.bottom_force();
-    row.wall_force   = dem.wall_force();
-    row.fluid_force  = exchange->total_force()[2] + parameters.fluid.density *
-                                                     parameters.dem.particles.gravity *
-                                                     dem.solid_volume();
+    row.pressure_drop = coupled->pressure_drop();
+    row.bed_height    = observables.bed().height;
+    row.bottom_force  = dem.bottom_force();
+    row.wall_force    = dem.wall_force();
+    row.fluid_force =
+      coupled->exchange().total_force()[2] +
+      parameters.fluid.density * parameters.dem.particles.gravity * dem.solid_volume();
     row.kinetic_energy     = dem.mean_kinetic_energy();
     row.maximum_speed      = dem.maximum_speed();
     row.mass_imbalance     = last_report.mass_imbalance;
-    row.momentum_imbalance = exchange->momentum_imbalance();
-    row.solid_volume_error = exchange->solid_volume_error();
+    row.momentum_imbalance = coupled->exchange().momentum_imbalance();
+    row.solid_volume_error = coupled->exchange().solid_volume_error();
     row.linear_iterations  = last_report.iterations;
     return row;
   }
@@ -271,7 +254,8 @@ namespace graupel
     if (parameters.output.interval <= 0. || time < next_output)
       return;
     const CostSheet::Scope timing(summary.costs, CostSheet::output);
-    files.add_fields(time, *nodes, exchange->medium(), *fluid);
+    files.add_fields(
+      time, coupled->nodes(), coupled->exchange().medium(), coupled->fluid());
     files.add_particles(time, dem);
     next_output = time + parameters.output.interval;
   }
@@ -299,9 +283,11 @@ namespace graupel
       parameters.fluid, diameter, bed.mean_void_fraction, velocity, bed.height);
     result.deviation_from_ergun = result.pressure_drop / result.ergun_pressure_drop - 1.;
 
-    const FlowFields fields{
-      *nodes, exchange->medium().void_fraction, fluid->flux()[2], fluid->pressure()};
-    const auto n_slabs = static_cast<unsigned int>(
+    const FlowFields fields{coupled->nodes(),
+                            coupled->exchange().medium().void_fraction,
+                            coupled->fluid().flux()[2],
+                            coupled->fluid().pressure()};
+    const auto       n_slabs = static_cast<unsigned int>(
       std::max(10l, std::lround(parameters.cylinder.height / parameters.mesh.cell_size)));
     const auto   axial = axial_profile(fields, n_slabs);
     const double lower = 0.25 * bed.height, upper = 0.75 * bed.height;
@@ -330,7 +316,8 @@ namespace graupel
     files.write_axial(number, axial, result);
     files.write_radial(number, radial, parameters.cylinder.diameter / 2.);
     files.write_mid_plane(number, mid_plane(fields, parameters.output.midplane_points));
-    files.add_fields(time, *nodes, exchange->medium(), *fluid);
+    files.add_fields(
+      time, coupled->nodes(), coupled->exchange().medium(), coupled->fluid());
     files.add_particles(time, dem);
     if (parameters.output.force_chains)
       files.add_contacts(time, dem);

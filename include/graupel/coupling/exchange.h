@@ -62,6 +62,18 @@ namespace graupel
      */
     void update(const ParticleStore &store, const ParticleArrays &particles);
 
+    /** The void fraction alone, from where the particles are (the store must be
+     * current). */
+    void update_void_fraction(const ParticleStore  &store,
+                              const ParticleArrays &particles);
+
+    /**
+     * Takes the slip velocities of the next update() from @p flux [m/s] through
+     * @p void_fraction instead of the last forces(): where a flow is continued on
+     * another mesh or in another run.
+     */
+    void follow(const NodalVectorField &flux, const NodalVector &void_fraction);
+
     /** What update() made. */
     const Medium &
     medium() const

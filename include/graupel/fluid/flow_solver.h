@@ -65,6 +65,15 @@ namespace graupel
      */
     Report step(const Medium &medium, const double step);
 
+    /**
+     * Goes on from @p flux [m/s] and @p pressure [Pa] through @p void_fraction,
+     * instead of from still fluid or the last step: where a flow is continued
+     * on another mesh or in another run. The next step is of first order.
+     */
+    void continue_from(const NodalVectorField &flux,
+                       const NodalVector      &pressure,
+                       const NodalVector      &void_fraction);
+
     /** q [m/s], ghosts up to date. */
     const NodalVectorField &
     flux() const

@@ -2,11 +2,9 @@
 #define graupel_simulation_packed_bed_h
 
 #include <graupel/base/progress.h>
+#include <graupel/simulation/coupled_flow.h>
 #include <graupel/simulation/result_files.h>
-#include <graupel/simulation/run_parameters.h>
 #include <graupel/simulation/summary.h>
-
-#include <optional>
 
 namespace graupel
 {
@@ -33,7 +31,7 @@ namespace graupel
 
   private:
     void balance_if_due();
-    void build_fluid();
+    void start_fluid();
     void fill();
     void settle();
     void flow();
@@ -51,15 +49,11 @@ namespace graupel
     const MPI_Comm      communicator;
 
     Summary        summary;
-    VesselMesh   mesh;
+    VesselMesh     mesh;
     Dem            dem;
     BedObservables observables;
 
-    // What lives on the mesh; built when the bed is ready and the mesh divided
-    // among the ranks for the last time.
-    std::optional<NodalSpace> nodes;
-    std::optional<FlowSolver> fluid;
-    std::optional<Exchange>   exchange;
+    std::optional<CoupledFlow> coupled; // from when the bed is ready
 
     double                  time = 0.; // simulated, since the run began [s]
     double                  next_output;

@@ -1,0 +1,70 @@
+#ifndef graupel_simulation_coupled_flow_h
+#define graupel_simulation_coupled_flow_h
+
+#include <graupel/coupling/exchange.h>
+#include <graupel/dem/dem.h>
+#include <graupel/simulation/run_parameters.h>
+
+#include <optional>
+
+namespace graupel
+{
+  /**
+   * The fluid in the bed: everything that lives on the nodes of the mesh, which
+   * is flow solver and exchange, and the order of their work.
+   */
+  class CoupledFlow
+  {
+  public:
+    /** Still fluid around the particles; all references must outlive this object. */
+    CoupledFlow(const RunParameters &parameters,
+                const VesselMesh    &mesh,
+                Dem                 &dem,
+                CostSheet           &costs);
+
+    /** The plug flow that enters at the bottom from now on [m/s]. */
+    void set_superficial_velocity(const double velocity);
+
+    /**
+     * Takes the fluid @p step [s] further past the particles where they are, and
+     * sets the force of the fluid on them. The particles do not move.
+     */
+    FlowSolver::Report step(const double step);
+
+    /** Pressure at the bottom minus pressure at the top [Pa]. */
+    double pressure_drop() const;
+
+    const NodalSpace &
+    nodes() const
+    {
+      return *node_space;
+    }
+
+    const FlowSolver &
+    fluid() const
+    {
+      return *solver;
+    }
+
+    const Exchange &
+    exchange() const
+    {
+      return *particles_and_fluid;
+    }
+
+  private:
+    void build();
+
+    const RunParameters &parameters;
+    const VesselMesh    &mesh;
+    Dem                 &dem;
+    CostSheet           &costs;
+
+    // Built anew with every new mesh or partition.
+    std::optional<NodalSpace> node_space;
+    std::optional<FlowSolver> solver;
+    std::optional<Exchange>   particles_and_fluid;
+  };
+} // namespace graupel
+
+#endif

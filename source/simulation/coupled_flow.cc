@@ -1,0 +1,59 @@
+#include <graupel/simulation/coupled_flow.h>
+
+namespace graupel
+{
+  CoupledFlow::CoupledFlow(const RunParameters &parameters,
+                           const VesselMesh    &mesh,
+                           Dem                 &dem,
+                           CostSheet           &costs)
+    : parameters(parameters)
+    , mesh(mesh)
+    , dem(dem)
+    , costs(costs)
+  {
+    build();
+  }
+
+  void
+  CoupledFlow::build()
+  {
+    node_space.emplace(mesh);
+    solver.emplace(parameters.flow,
+                   parameters.fluid.density,
+                   parameters.fluid.viscosity,
+                   *node_space,
+                   costs);
+    std::vector<DragOfType> drags;
+    for (const auto &type : parameters.dem.types())
+      drags.push_back({Drag(parameters.drag, parameters.fluid, type.diameter, type.scale),
+                       0.5 * type.scale * type.diameter});
+    particles_and_fluid.emplace(parameters.filter_length(), drags, *node_space, costs);
+  }
+
+  void
+  CoupledFlow::set_superficial_velocity(const double velocity)
+  {
+    solver->set_superficial_velocity(velocity);
+  }
+
+  FlowSolver::Report
+  CoupledFlow::step(const double step)
+  {
+    dem.synchronise();
+    particles_and_fluid->update(dem.store(), dem.particles());
+    const auto report = solver->step(particles_and_fluid->medium(), step);
+    dem.particles().external_force =
+      particles_and_fluid->forces(dem.particles(),
+                                  *solver,
+                                  parameters.fluid.density,
+                                  parameters.dem.particles.gravity);
+    return report;
+  }
+
+  double
+  CoupledFlow::pressure_drop() const
+  {
+    return solver->mean_pressure(VesselMesh::bottom) -
+           solver->mean_pressure(VesselMesh::top);
+  }
+} // namespace graupel
