@@ -307,11 +307,11 @@ namespace
       }
 
     // Room above the bed: a lid would carry load.
-    const Cylinder     cylinder{0.025, top_of(bed) + 4. * bed.radius};
-    VesselMesh mesh(cylinder, {options.cell_size}, MPI_COMM_WORLD);
-    CostSheet          costs;
-    Dem                dem(parameters, mesh, costs);
-    const double       baseline = peak_memory();
+    const Cylinder cylinder{0.025, top_of(bed) + 4. * bed.radius};
+    VesselMesh     mesh(cylinder, {options.cell_size}, MPI_COMM_WORLD);
+    CostSheet      costs;
+    Dem            dem(parameters, mesh, costs);
+    const double   baseline = peak_memory();
     insert(dem, bed, options.velocity);
 
     advance(dem, options.warm_up, options.synchronise);

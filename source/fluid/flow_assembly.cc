@@ -12,13 +12,14 @@ namespace graupel
         const unsigned int node     = space.cell_nodes[cell][a];
         const double       alpha    = medium.void_fraction.local_element(node);
         state.void_fraction[a]      = alpha;
+        state.pressure_share[a]     = medium.shares_pressure ? alpha : 1.;
         state.resistance[a]         = medium.drag.local_element(node) / alpha;
         state.void_fraction_rate[a] = alpha_rate.local_element(node);
         for (unsigned int i = 0; i < 3; ++i)
           {
-            state.flux[a][i]        = flux_now[i].local_element(node);
-            state.history[a][i]     = history[i].local_element(node);
-            state.drag_source[a][i] = medium.drag_source[i].local_element(node);
+            state.flux[a][i]    = carrier[i].local_element(node);
+            state.history[a][i] = history[i].local_element(node);
+            state.source[a][i]  = medium.drag_source[i].local_element(node);
           }
       }
     return state;
@@ -31,17 +32,6 @@ namespace graupel
     rhs    = 0.;
     const FlowCoefficients coefficients{
       density, viscosity, scheme.now, parameters.grad_div};
-    const unsigned int         n = unknowns_per_node * nodes_per_cell;
-    dealii::FullMatrix<double> cell_matrix(n, n);
-    dealii::Vector<double>     cell_rhs(n);
-    const auto                 distribute = [&](const unsigned int cell) {
-      const auto &unknowns = space.cell_unknowns[cell];
-      constraints.distribute_local_to_global(cell_matrix, unknowns, matrix);
-      constraints.distribute_local_to_global(cell_rhs, unknowns, rhs, cell_matrix);
-      cell_matrix = 0.;
-      cell_rhs    = 0.;
-    };
-
     for (unsigned int cell = 0; cell < space.n_cells(); ++cell)
       {
         const CellState state = gather(cell, medium);
@@ -54,40 +44,86 @@ namespace graupel
         distribute(cell);
       }
 
-    for (const auto &point : space.bottom)
-      {
-        for (unsigned int a = 0; a < nodes_per_cell; ++a)
-          cell_rhs[unknowns_per_node * a + 3] +=
-            point.weight * point.value[a] * superficial_velocity;
-        distribute(point.cell);
-      }
-
-    for (const auto &point : space.top)
-      {
-        const CellState state    = gather(point.cell, medium);
-        double          backflow = 0.; // momentum that must not enter with reversed flow
-        for (unsigned int a = 0; a < nodes_per_cell; ++a)
-          backflow += point.value[a] * state.flux[a][2];
-        backflow = density * std::max(0., -backflow);
-        for (unsigned int a = 0; a < nodes_per_cell; ++a)
-          for (unsigned int b = 0; b < nodes_per_cell; ++b)
-            {
-              const double       mass   = point.weight * point.value[a] * point.value[b];
-              const unsigned int row    = unknowns_per_node * a,
-                                 column = unknowns_per_node * b;
-              cell_matrix(row + 2, column + 3) -= state.void_fraction[a] * mass;
-              cell_matrix(row + 3, column + 2) += mass;
-              for (unsigned int i = 0; i < 3; ++i)
-                cell_matrix(row + i, column + i) +=
-                  backflow * mass / state.void_fraction[b];
-            }
-        distribute(point.cell);
-      }
-
+    assemble_inlets();
+    assemble_outlets(medium);
     add_nodal_drag(medium);
     matrix.compress(dealii::VectorOperation::add);
     rhs.compress(dealii::VectorOperation::add);
     assemble_schur(medium);
+  }
+
+  void
+  FlowSolver::assemble_inlets()
+  {
+    for (const auto id : boundaries.inlets())
+      for (const auto &point : space.boundary(id))
+        {
+          double normal_flux = 0.;
+          for (unsigned int a = 0; a < nodes_per_cell; ++a)
+            for (unsigned int i = 0; i < 3; ++i)
+              normal_flux +=
+                point.value[a] * point.normal[i] *
+                boundaries.flux()[i].local_element(space.cell_nodes[point.cell][a]);
+          for (unsigned int a = 0; a < nodes_per_cell; ++a)
+            cell_rhs[unknowns_per_node * a + 3] -=
+              point.weight * point.value[a] * normal_flux;
+          distribute(point.cell);
+        }
+  }
+
+  void
+  FlowSolver::assemble_outlets(const Medium &medium)
+  {
+    for (const auto id : boundaries.outlets())
+      for (const auto &point : space.boundary(id))
+        {
+          const CellState      state    = gather(point.cell, medium);
+          double               backflow = 0.; // momentum that must not enter
+          double               pressure = 0.;
+          dealii::Tensor<1, 3> traction;
+          for (unsigned int a = 0; a < nodes_per_cell; ++a)
+            {
+              const unsigned int node = space.cell_nodes[point.cell][a];
+              backflow += point.value[a] * (state.flux[a] * point.normal);
+              pressure += point.value[a] * boundaries.pressure().local_element(node);
+              for (unsigned int i = 0; i < 3; ++i)
+                traction[i] += point.value[a] * outlet_traction[i].local_element(node);
+            }
+          backflow = density * std::max(0., -backflow);
+          for (unsigned int a = 0; a < nodes_per_cell; ++a)
+            {
+              const unsigned int row   = unknowns_per_node * a;
+              const double       share = point.weight * point.value[a];
+              for (unsigned int i = 0; i < 3; ++i)
+                cell_rhs[row + i] += share * (traction[i] - state.pressure_share[a] *
+                                                              pressure * point.normal[i]);
+              for (unsigned int b = 0; b < nodes_per_cell; ++b)
+                {
+                  const double       mass   = share * point.value[b];
+                  const unsigned int column = unknowns_per_node * b;
+                  for (unsigned int i = 0; i < 3; ++i)
+                    {
+                      cell_matrix(row + i, column + 3) -=
+                        state.pressure_share[a] * mass * point.normal[i];
+                      cell_matrix(row + 3, column + i) += mass * point.normal[i];
+                      cell_matrix(row + i, column + i) +=
+                        backflow * mass / state.void_fraction[b];
+                    }
+                }
+            }
+          distribute(point.cell);
+        }
+  }
+
+  void
+  FlowSolver::distribute(const unsigned int cell)
+  {
+    const auto &unknowns = space.cell_unknowns[cell];
+    boundaries.constraints().distribute_local_to_global(cell_matrix, unknowns, matrix);
+    boundaries.constraints().distribute_local_to_global(
+      cell_rhs, unknowns, rhs, cell_matrix);
+    cell_matrix = 0.;
+    cell_rhs    = 0.;
   }
 
   void
@@ -108,8 +144,10 @@ namespace graupel
                                 medium.void_fraction.local_element(k);
             node_rhs[i] = measure * medium.drag_source[i].local_element(k);
           }
-        constraints.distribute_local_to_global(node_matrix, unknowns, matrix);
-        constraints.distribute_local_to_global(node_rhs, unknowns, rhs, node_matrix);
+        boundaries.constraints().distribute_local_to_global(
+          node_matrix, unknowns, matrix);
+        boundaries.constraints().distribute_local_to_global(
+          node_rhs, unknowns, rhs, node_matrix);
       }
   }
 
@@ -123,7 +161,7 @@ namespace graupel
     std::vector<dealii::types::global_dof_index> indices(nodes_per_cell);
     std::vector<double>                          conductivity(space.n_cells());
 
-    const auto distribute = [&](const unsigned int cell) {
+    const auto distribute_nodes = [&](const unsigned int cell) {
       for (unsigned int a = 0; a < nodes_per_cell; ++a)
         indices[a] =
           nodes.measure().get_partitioner()->local_to_global(space.cell_nodes[cell][a]);
@@ -143,8 +181,8 @@ namespace graupel
           }
         const double tau =
           stabilization_time(coefficients, resistance, speed, state.size);
-        const double reaction =
-          density * (scheme.now + 2. * speed / state.size) + resistance;
+        const double reaction = density * (scheme.now + 2. * speed / state.size) +
+                                resistance + viscosity / (state.size * state.size);
         conductivity[cell] = alpha * (1. / reaction + tau);
         for (unsigned int q = 0; q < space.points_per_cell; ++q)
           {
@@ -154,16 +192,17 @@ namespace graupel
                 local(a, b) += point.weight * conductivity[cell] *
                                (point.gradient[a] * point.gradient[b]);
           }
-        distribute(cell);
+        distribute_nodes(cell);
       }
-    for (const auto &point : space.top)
-      {
-        const double weight = conductivity[point.cell] / space.cell_sizes[point.cell];
-        for (unsigned int a = 0; a < nodes_per_cell; ++a)
-          for (unsigned int b = 0; b < nodes_per_cell; ++b)
-            local(a, b) += weight * point.weight * point.value[a] * point.value[b];
-        distribute(point.cell);
-      }
+    for (const auto id : boundaries.outlets())
+      for (const auto &point : space.boundary(id))
+        {
+          const double weight = conductivity[point.cell] / space.cell_sizes[point.cell];
+          for (unsigned int a = 0; a < nodes_per_cell; ++a)
+            for (unsigned int b = 0; b < nodes_per_cell; ++b)
+              local(a, b) += weight * point.weight * point.value[a] * point.value[b];
+          distribute_nodes(point.cell);
+        }
     schur.compress(dealii::VectorOperation::add);
   }
 } // namespace graupel

@@ -11,6 +11,7 @@ namespace graupel
     {
       double       void_fraction      = 0.;
       double       resistance         = 0.;
+      double       pressure_share     = 0.;
       double       void_fraction_rate = 0.;
       double       flux_divergence    = 0.;
       Tensor<1, 3> flux;
@@ -30,11 +31,12 @@ namespace graupel
           const double psi = point.value[a];
           result.void_fraction += psi * state.void_fraction[a];
           result.resistance += psi * state.resistance[a];
+          result.pressure_share += psi * state.pressure_share[a];
           result.void_fraction_rate += psi * state.void_fraction_rate[a];
           result.flux_divergence += point.gradient[a] * state.flux[a];
           result.flux += psi * state.flux[a];
           result.history += psi * state.history[a];
-          result.source += psi * state.drag_source[a];
+          result.source += psi * state.source[a];
         }
       result.source -= coefficients.density * result.history;
       return result;
@@ -98,7 +100,7 @@ namespace graupel
             const double       diagonal =
               psi_a * galerkin[b] + upwind[a] * strong[b] + friction * (grad_a * grad_b);
             const double pressure_weight =
-              state.void_fraction[a] * psi_a + upwind[a] * alpha;
+              state.pressure_share[a] * psi_a + upwind[a] * here.pressure_share;
             for (unsigned int i = 0; i < 3; ++i)
               {
                 matrix(row + i, column + i) += point.weight * diagonal;
@@ -110,7 +112,8 @@ namespace graupel
                 matrix(row + 3, column + i) +=
                   point.weight * grad_a[i] * (tau * strong[b] - point.value[b]);
               }
-            matrix(row + 3, column + 3) += point.weight * tau * alpha * (grad_a * grad_b);
+            matrix(row + 3, column + 3) +=
+              point.weight * tau * here.pressure_share * (grad_a * grad_b);
           }
 
         for (unsigned int i = 0; i < 3; ++i)

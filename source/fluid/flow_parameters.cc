@@ -7,14 +7,8 @@ namespace graupel
   FlowParameters::declare(dealii::ParameterHandler &prm)
   {
     using dealii::Patterns::Selection;
+    boundaries.declare(prm);
     prm.enter_subsection("Flow solver");
-    prm.add_parameter(
-      "wall condition",
-      wall,
-      "What the fluid does at the lateral wall: slip or no-slip. In a bed the "
-      "layer that a wall slows down is far thinner than a cell, so slip is the "
-      "better choice there.",
-      Selection("slip|no-slip"));
     prm.add_parameter(
       "time scheme",
       time_scheme,
@@ -39,12 +33,23 @@ namespace graupel
     prm.add_parameter("maximum iterations",
                       maximum_iterations,
                       "Iterations after which a linear solve is given up [-].");
+    prm.add_parameter(
+      "nonlinear iterations",
+      nonlinear_iterations,
+      "How often a step may repeat its linear system until the convection in it no "
+      "longer "
+      "changes; a step that does not get there has failed. 1: convection is linearised "
+      "about the flux known from the steps before, without a check [-].");
+    prm.add_parameter("nonlinear tolerance",
+                      nonlinear_tolerance,
+                      "Relative change of the flux at which these end [-].");
     prm.leave_subsection();
   }
 
   void
   FlowParameters::check() const
   {
+    boundaries.check();
     require(grad_div >= 0.,
             "Flow solver/grad-div factor",
             "a negative penalty amplifies errors; choose 0.5 to 3");
@@ -54,6 +59,12 @@ namespace graupel
     require(mass_tolerance > 0. && mass_tolerance < 1e-2,
             "Flow solver/mass tolerance",
             "the tolerance must lie between 0 and 0.01; 1e-9 is usual");
+    require(nonlinear_iterations >= 1,
+            "Flow solver/nonlinear iterations",
+            "must be at least 1");
+    require(nonlinear_tolerance > 0.,
+            "Flow solver/nonlinear tolerance",
+            "must be positive; 1e-6 is usual");
     require(
       maximum_iterations >= 1, "Flow solver/maximum iterations", "must be at least 1");
   }

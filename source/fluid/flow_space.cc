@@ -7,7 +7,8 @@
 
 namespace graupel
 {
-  FlowSpace::FlowSpace(const NodalSpace &nodes)
+  FlowSpace::FlowSpace(const NodalSpace                              &nodes,
+                       const std::vector<dealii::types::boundary_id> &outlets)
     : nodes(nodes)
     , fe(nodes.fe, unknowns_per_node)
     , dof_handler(nodes.dof_handler.get_triangulation())
@@ -16,7 +17,7 @@ namespace graupel
     number_unknowns();
     store_cells();
     store_faces();
-    assemble_gradient();
+    assemble_gradient(outlets);
   }
 
   void
@@ -81,6 +82,7 @@ namespace graupel
               shapes.push_back(point);
             }
           cell_sizes.push_back(std::cbrt(volume));
+          cell_centers.push_back(cell->center());
         }
   }
 
@@ -90,33 +92,43 @@ namespace graupel
     dealii::FEFaceValues<3> values(nodes.mesh.mapping(),
                                    nodes.fe,
                                    dealii::QGauss<2>(2),
-                                   dealii::update_values | dealii::update_JxW_values);
+                                   dealii::update_values | dealii::update_JxW_values |
+                                     dealii::update_normal_vectors |
+                                     dealii::update_quadrature_points);
     unsigned int            number = 0;
     for (const auto &cell : nodes.dof_handler.active_cell_iterators())
       if (cell->is_locally_owned())
         {
           for (const unsigned int f : cell->face_indices())
-            if (cell->face(f)->at_boundary() &&
-                cell->face(f)->boundary_id() != VesselMesh::wall)
+            if (cell->face(f)->at_boundary())
               {
                 values.reinit(cell, f);
                 for (const unsigned int q : values.quadrature_point_indices())
                   {
                     FacePoint point;
-                    point.cell   = number;
-                    point.weight = values.JxW(q);
+                    point.position = values.quadrature_point(q);
+                    point.normal   = values.normal_vector(q);
+                    point.cell     = number;
+                    point.weight   = values.JxW(q);
                     for (unsigned int a = 0; a < nodes_per_cell; ++a)
                       point.value[a] = values.shape_value(a, q);
-                    (cell->face(f)->boundary_id() == VesselMesh::top ? top : bottom)
-                      .push_back(point);
+                    faces[cell->face(f)->boundary_id()].push_back(point);
                   }
               }
           ++number;
         }
   }
 
+  const std::vector<FlowSpace::FacePoint> &
+  FlowSpace::boundary(const dealii::types::boundary_id id) const
+  {
+    static const std::vector<FacePoint> none;
+    const auto                          found = faces.find(id);
+    return found == faces.end() ? none : found->second;
+  }
+
   void
-  FlowSpace::assemble_gradient()
+  FlowSpace::assemble_gradient(const std::vector<dealii::types::boundary_id> &outlets)
   {
     for (unsigned int i = 0; i < 3; ++i)
       {
@@ -132,11 +144,12 @@ namespace graupel
                   local[cell](a, b) +=
                     point.weight * point.value[a] * point.gradient[b][i];
             }
-        if (i == 2)
-          for (const FacePoint &point : top)
+        for (const auto id : outlets)
+          for (const FacePoint &point : boundary(id))
             for (unsigned int a = 0; a < nodes_per_cell; ++a)
               for (unsigned int b = 0; b < nodes_per_cell; ++b)
-                local[point.cell](a, b) -= point.weight * point.value[a] * point.value[b];
+                local[point.cell](a, b) -=
+                  point.weight * point.normal[i] * point.value[a] * point.value[b];
 
         const auto &partitioner = *nodes.measure().get_partitioner();
         std::vector<dealii::types::global_dof_index> indices(nodes_per_cell);

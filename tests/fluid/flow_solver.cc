@@ -49,7 +49,7 @@ namespace
     }
 
     CostSheet    costs;
-    VesselMesh mesh;
+    VesselMesh   mesh;
     NodalSpace   nodes;
     FlowSolver   flow;
     Medium       medium;

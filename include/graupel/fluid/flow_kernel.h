@@ -8,17 +8,17 @@
 #include <array>
 
 /**
- * The volume-averaged Navier-Stokes equations at a quadrature point (model A:
- * both phases share the pressure gradient). Unknowns: the volumetric flux
- * q = alpha u and the pressure p, without its hydrostatic part,
+ * The volume-averaged Navier-Stokes equations at a quadrature point. Unknowns: the
+ * volumetric flux q = alpha u and the pressure p, without its hydrostatic part,
  *
- *   rho dq/dt + rho div(q q / alpha) = -alpha grad p + div(alpha tau(u)) - (B u - C)
- *   div q = -d(alpha)/dt,
+ *   rho dq/dt + rho div(q q / alpha) = -w grad p + div(alpha tau(u)) - (B u - C)
+ *   div q = -d(alpha)/dt + s,
  *
- * with u = q / alpha node by node, B [kg/m^3/s] the drag coefficient and
- * C [N/m^3] the drag that the particles' own velocity takes back. The nodal
- * drag itself is diagonal and added by the solver; here it enters the residual
- * of the stabilisation.
+ * with u = q / alpha node by node, w = alpha where both phases share the pressure
+ * gradient (model A) and 1 where the fluid has all of it (model B), B [kg/m^3/s] the drag
+ * coefficient and C [N/m^3] the drag that the particles' own velocity takes back, with
+ * further sources of momentum, and s a source of volume [1/s]. The nodal drag itself is
+ * diagonal and added by the solver; here it enters the residual of the stabilisation.
  */
 namespace graupel
 {
@@ -46,14 +46,16 @@ namespace graupel
     std::array<double, nodes_per_cell> void_fraction;
     /** B / alpha, the resistance to the flux [kg/m^3/s]. */
     std::array<double, nodes_per_cell> resistance;
-    /** d(alpha)/dt [1/s]. */
+    /** w, the share of the pressure gradient that acts on the fluid [-]. */
+    std::array<double, nodes_per_cell> pressure_share;
+    /** d(alpha)/dt - s [1/s]. */
     std::array<double, nodes_per_cell> void_fraction_rate;
-    /** The flux that carries momentum, of the last step [m/s]. */
+    /** The flux that carries momentum: known from earlier [m/s]. */
     std::array<dealii::Tensor<1, 3>, nodes_per_cell> flux;
     /** The known part of dq/dt [m/s^2]. */
     std::array<dealii::Tensor<1, 3>, nodes_per_cell> history;
     /** C [N/m^3]. */
-    std::array<dealii::Tensor<1, 3>, nodes_per_cell> drag_source;
+    std::array<dealii::Tensor<1, 3>, nodes_per_cell> source;
   };
 
   /** Basis functions at one quadrature point. */

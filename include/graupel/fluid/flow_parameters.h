@@ -1,17 +1,14 @@
 #ifndef graupel_fluid_flow_parameters_h
 #define graupel_fluid_flow_parameters_h
 
-#include <deal.II/base/parameter_handler.h>
-
-#include <string>
+#include <graupel/fluid/boundary_parameters.h>
 
 namespace graupel
 {
   /** How the flow equations are discretised and solved. */
   struct FlowParameters
   {
-    /** "slip" or "no-slip" at the lateral wall. */
-    std::string wall = "slip";
+    BoundaryParameters boundaries;
     /** "bdf1" or "bdf2". */
     std::string time_scheme = "bdf1";
     /** Factor of the grad-div term [-]. */
@@ -23,7 +20,12 @@ namespace graupel
     /** Iterations after which a solve has failed [-]. */
     unsigned int maximum_iterations = 500;
 
-    /** Declares the section "Flow solver". */
+    /** Linear systems a step until convection is converged, at most [-]. */
+    unsigned int nonlinear_iterations = 1;
+    /** Change of the flux at which it is [-]. */
+    double nonlinear_tolerance = 1e-6;
+
+    /** Declares the sections "Boundary conditions" and "Flow solver". */
     void declare(dealii::ParameterHandler &prm);
     void check() const;
   };

@@ -3,8 +3,8 @@
 
 #include <graupel/base/cost_sheet.h>
 #include <graupel/fluid/block_preconditioner.h>
+#include <graupel/fluid/flow_boundaries.h>
 #include <graupel/fluid/flow_parameters.h>
-#include <graupel/fluid/flow_space.h>
 #include <graupel/fluid/time_scheme.h>
 
 namespace graupel
@@ -16,24 +16,36 @@ namespace graupel
     NodalVector void_fraction;
     /** B, the drag coefficient a volume [kg/m^3/s]. */
     NodalVector drag;
-    /** C = B v for particles that move with v [N/m^3]. */
+    /** C = B v for particles that move with v, and any other force [N/m^3]. */
     NodalVectorField drag_source;
+    /** Whether the solids carry their share of the pressure gradient (model A)
+     * or the fluid all of it (model B). */
+    bool shares_pressure = true;
+    /** s, volume that appears per volume and time [1/s]. */
+    NodalVector volume_source;
 
     /** Clear fluid: alpha = 1, no drag. */
     explicit Medium(const NodalSpace &nodes);
   };
 
+  /** A linear or nonlinear solve that did not converge; a smaller step may help. */
+  class SolverFailure : public std::runtime_error
+  {
+  public:
+    using std::runtime_error::runtime_error;
+  };
+
   /**
    * The volume-averaged Navier-Stokes solver: equal-order trilinear elements
    * for the flux q = alpha u and the pressure p, stabilised (PSPG, SUPG,
-   * grad-div), one coupled linear system a step with drag, pressure, viscosity
-   * and convection implicit; drag and convection are linearised about the last
-   * step's flux.
+   * grad-div), one coupled linear system with drag, pressure, viscosity
+   * and convection implicit. Convection is linearised about the flux of the last
+   * step (BDF1), about the one extrapolated from the last two (BDF2), or repeated
+   * until it no longer changes ("nonlinear iterations").
    *
-   * Boundary conditions: superficial velocity at the bottom (plug flow),
-   * pressure 0 at the top (weak, with backflow stabilisation), slip or no-slip at
-   * the wall. Summed over all test functions the continuity equation says
-   * inflow = outflow + stored, to the tolerance of the linear solver.
+   * Pressures are prescribed weakly, with backflow stabilisation. Summed over all
+   * test functions the continuity equation says inflow = outflow + stored, to the
+   * tolerance of the linear solver.
    */
   class FlowSolver
   {
@@ -41,10 +53,26 @@ namespace graupel
     /** What happened in a step. */
     struct Report
     {
+      /** Of the linear solver, all together [-]. */
       unsigned int iterations = 0;
+      /** Linear systems solved [-]. */
+      unsigned int nonlinear_iterations = 0;
+      /** Last change of the flux, |q - linearised about| / |q| [-]. */
+      double change = 0.;
       /** |inflow - outflow - stored| / inflow [-]. */
       double mass_imbalance = 0.;
+      /** Largest residual of the discrete continuity equation at one node, over
+       * the inflow [-]. */
+      double worst_node_imbalance = 0.;
+      /** Largest |integral of div q + d(alpha)/dt| of one cell over the inflow: a
+       * discretisation error [-]. */
+      double worst_cell_imbalance = 0.;
+      /** Where that is [m]. */
+      dealii::Point<3> worst_cell;
     };
+
+    /** A step of this length seeks the steady state [s]. */
+    static constexpr double steady = std::numeric_limits<double>::infinity();
 
     /** @p density [kg/m^3], @p viscosity [Pa s]; @p nodes and @p costs must outlive this
      * object. */
@@ -54,14 +82,22 @@ namespace graupel
                const NodalSpace     &nodes,
                CostSheet            &costs);
 
-    /** The plug flow that enters at the bottom from now on [m/s]. */
+    /** V of the boundary conditions: the mean flux of the inlets from now on [m/s]. */
     void set_superficial_velocity(const double velocity);
+
+    /** The time, for boundary conditions that depend on it [s]. */
+    void set_time(const double time);
+
+    /** Traction at the outlets beside the prescribed pressure, 0 without [Pa];
+     * ghosts up to date. */
+    void set_outlet_traction(const NodalVectorField &traction);
 
     /**
      * Solves for the time @p step [s] after the last one, through @p medium.
      * The rate of the void fraction is taken from this and the last media by
-     * the same formula as the acceleration. Throws std::runtime_error where the
-     * linear solver does not converge.
+     * the same formula as the acceleration. With the step FlowSolver::steady all
+     * rates are 0: one linear solve towards the steady state. Throws SolverFailure
+     * where a solve does not converge, and then is as it was before.
      */
     Report step(const Medium &medium, const double step);
 
@@ -94,25 +130,42 @@ namespace graupel
      */
     NodalVectorField pressure_gradient() const;
 
-    /** Mean pressure over the bottom or the top [Pa]. */
-    double mean_pressure(const VesselMesh::Boundary boundary) const;
+    /** Mean pressure over a boundary [Pa]. */
+    double mean_pressure(const dealii::types::boundary_id boundary) const;
 
-    /** Volume that leaves through the top [m^3/s]. */
+    /** Volume that leaves through the outlets [m^3/s]. */
     double outflow() const;
 
+    /** Volume that enters through the inlets [m^3/s]. */
+    double
+    inflow() const
+    {
+      return throughput;
+    }
+
+    /** Largest |u| / h of a cell: the Courant number over the step [1/s]. */
+    double courant_rate() const;
+
   private:
-    void         make_constraints();
     void         prepare_matrices();
+    void         prepare_rates(const Medium &medium, const double step);
     CellState    gather(const unsigned int cell, const Medium &medium) const;
     void         assemble(const Medium &medium);
+    void         assemble_inlets();
+    void         assemble_outlets(const Medium &medium);
+    void         distribute(const unsigned int cell);
     void         add_nodal_drag(const Medium &medium);
     void         assemble_schur(const Medium &medium);
-    unsigned int solve(const double inflow);
+    unsigned int solve();
     unsigned int solve_to(const double tolerance);
     // Iterations, or invalid_unsigned_int after @p maximum of them.
     unsigned int iterate(const double tolerance, const unsigned int maximum);
     void         refresh_preconditioner();
     double       mass_error() const;
+    double       node_error();
+    void         find_worst_cell(Report &report) const;
+    double       take_carrier();
+    void         restore_solution();
     void         publish();
 
     const FlowParameters parameters;
@@ -121,25 +174,32 @@ namespace graupel
     const NodalSpace    &nodes;
     CostSheet           &costs;
     const FlowSpace      space;
+    FlowBoundaries       boundaries;
 
-    double                            superficial_velocity = 0.;
-    dealii::AffineConstraints<double> constraints;
+    double           superficial_velocity = 0.;
+    double           throughput           = 0.; // inflow, never 0 [m^3/s]
+    double           time                 = 0.; // of the flux [s]
+    NodalVectorField outlet_traction;
 
     dealii::TrilinosWrappers::BlockSparseMatrix matrix;
     dealii::TrilinosWrappers::SparseMatrix      schur;
     BlockPreconditioner                         preconditioner;
     unsigned int                                fresh_iterations    = 0;
     unsigned int                                last_iterations     = 0;
-    double                                      preconditioned_rate = 0.;
-    BlockVector                                 solution;
-    BlockVector                                 rhs;
+    double                                      preconditioned_rate = -1.;
+    BlockVector                                 solution, rhs, residual;
+    dealii::FullMatrix<double>                  cell_matrix;
+    dealii::Vector<double>                      cell_rhs;
+    double                                      worst_node = 0.; // [m^3/s]
 
     TimeScheme       scheme;
     double           last_step   = 0.;
     unsigned int     known_media = 0;
     NodalVectorField flux_now, flux_old, history;
+    NodalVectorField carrier; // the flux that convection is linearised about
     NodalVector      pressure_now;
-    NodalVector      alpha_old, alpha_older, alpha_rate;
+    NodalVector      alpha_old, alpha_older;
+    NodalVector      alpha_rate; // with the source of volume
   };
 } // namespace graupel
 

@@ -25,9 +25,11 @@ namespace graupel
   public:
     using LocalNodes = std::array<unsigned int, nodes_per_cell>;
 
-    /** A quadrature point on the bottom or the top. */
+    /** A quadrature point on the boundary. */
     struct FacePoint
     {
+      dealii::Point<3>     position;
+      dealii::Tensor<1, 3> normal; // outward
       /** Number of the cell among the owned cells. */
       unsigned int cell;
       /** Weight, with the Jacobian [m^2]. */
@@ -36,8 +38,12 @@ namespace graupel
       std::array<double, nodes_per_cell> value;
     };
 
-    /** @p nodes must outlive this object. */
-    explicit FlowSpace(const NodalSpace &nodes);
+    /** @p nodes must outlive this object; pressure is prescribed on @p outlets. */
+    FlowSpace(const NodalSpace                              &nodes,
+              const std::vector<dealii::types::boundary_id> &outlets);
+
+    /** Quadrature points of this rank's part of a boundary. */
+    const std::vector<FacePoint> &boundary(const dealii::types::boundary_id id) const;
 
     /** Owned cells of this rank. */
     unsigned int
@@ -53,18 +59,17 @@ namespace graupel
     std::vector<dealii::IndexSet> owned, relevant;
 
     /** By owned cell: its unknowns, its nodes as local indices of a NodalVector, its size
-     * [m]. */
+     * and its middle [m]. */
     std::vector<std::vector<dealii::types::global_dof_index>> cell_unknowns;
     std::vector<LocalNodes>                                   cell_nodes;
     std::vector<double>                                       cell_sizes;
+    std::vector<dealii::Point<3>>                             cell_centers;
     /** Quadrature points, cell after cell. */
     std::vector<ShapePoint> shapes;
     unsigned int            points_per_cell;
-    std::vector<FacePoint>  bottom, top;
-
     /**
      * By component: integral of psi_k dp/dx_i over the cells, minus
-     * integral of psi_k n_i p over the top [m^2]; its transpose is minus the
+     * integral of psi_k n_i p over the outlets [m^2]; its transpose is minus the
      * divergence of the continuity equation.
      */
     std::array<dealii::TrilinosWrappers::SparseMatrix, 3> gradient;
@@ -73,7 +78,9 @@ namespace graupel
     void number_unknowns();
     void store_cells();
     void store_faces();
-    void assemble_gradient();
+    void assemble_gradient(const std::vector<dealii::types::boundary_id> &outlets);
+
+    std::map<dealii::types::boundary_id, std::vector<FacePoint>> faces;
   };
 } // namespace graupel
 

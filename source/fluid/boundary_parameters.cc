@@ -1,0 +1,148 @@
+#include <graupel/base/parameters.h>
+#include <graupel/fluid/boundary_parameters.h>
+
+#include <deal.II/base/function_parser.h>
+#include <deal.II/base/utilities.h>
+
+#include <algorithm>
+
+namespace graupel
+{
+  namespace
+  {
+    struct Word
+    {
+      const char             *text;
+      BoundaryCondition::Kind kind;
+      unsigned int            n_expressions;
+    };
+
+    constexpr Word words[] = {{"plug", BoundaryCondition::plug, 0},
+                              {"parabolic", BoundaryCondition::parabolic, 0},
+                              {"velocity", BoundaryCondition::velocity, 3},
+                              {"mass flow rate", BoundaryCondition::mass_flow_rate, 1},
+                              {"pressure", BoundaryCondition::pressure, 1},
+                              {"no-slip", BoundaryCondition::no_slip, 0},
+                              {"slip", BoundaryCondition::slip, 0}};
+
+    void
+    try_expressions(const std::vector<std::string> &expressions,
+                    const std::string              &parameter)
+    {
+      try
+        {
+          dealii::FunctionParser<3> function(expressions.size());
+          function.initialize(
+            "x,y,z,t", expressions, {{"V", 1.}, {"pi", dealii::numbers::PI}}, true);
+          function.value(dealii::Point<3>(1e-3, 2e-3, 3e-3), 0);
+        }
+      catch (const std::exception &)
+        {
+          throw InputError(
+            parameter,
+            "an expression cannot be read; it may hold x, y, z [m], t [s], "
+            "V (the superficial velocity of the flow case) and pi");
+        }
+    }
+  } // namespace
+
+  BoundaryCondition
+  BoundaryCondition::read(const std::string &text, const std::string &parameter)
+  {
+    const std::string trimmed = dealii::Utilities::trim(text);
+    for (const Word &word : words)
+      {
+        const std::string name = word.text;
+        if (trimmed.compare(0, name.size(), name) != 0)
+          continue;
+        BoundaryCondition result;
+        result.kind        = word.kind;
+        result.expressions = dealii::Utilities::split_string_list(
+          dealii::Utilities::trim(trimmed.substr(name.size())), ';');
+        require(result.expressions.size() == word.n_expressions,
+                parameter,
+                "\"" + name + "\" needs " + std::to_string(word.n_expressions) +
+                  " expression(s), separated by semicolons, but there are " +
+                  std::to_string(result.expressions.size()));
+        if (word.n_expressions > 0)
+          try_expressions(result.expressions, parameter);
+        return result;
+      }
+    throw InputError(parameter,
+                     "\"" + trimmed +
+                       "\" is no boundary condition; there are plug, parabolic, velocity "
+                       "A; B; C, mass flow rate A, pressure A, slip and no-slip");
+  }
+
+  void
+  BoundaryParameters::declare(dealii::ParameterHandler &prm)
+  {
+    const dealii::Patterns::Anything anything;
+    prm.enter_subsection("Boundary conditions");
+    prm.add_parameter(
+      "bottom",
+      bottom,
+      "What the fluid meets at the bottom. plug: the superficial velocity of the flow "
+      "case, even; parabolic: the same mean with the profile of Poiseuille; velocity A; "
+      "B; C: the superficial velocity by three expressions in m/s; mass flow rate A: "
+      "plug "
+      "flow of A times the mean void fraction at the boundary, in kg/s (eq. 8 of "
+      "Ricklick & "
+      "Baran); pressure A: static pressure in Pa; slip; no-slip. Expressions may hold x, "
+      "y, "
+      "z [m], t [s], V (the superficial velocity of the case) and pi.",
+      anything);
+    prm.add_parameter("top", top, "The same at the top.", anything);
+    prm.add_parameter(
+      "wall",
+      wall,
+      "The same at the lateral wall. In a bed the layer that a wall slows down is far "
+      "thinner than a cell, so slip is the better choice there.",
+      anything);
+    prm.add_parameter("others",
+                      others,
+                      "The same at further boundaries of a mesh from a file: name = "
+                      "condition, separated by bars (|). Without an entry: as the wall.",
+                      anything);
+    prm.add_parameter(
+      "weigh inlets by void fraction",
+      weigh_inlets,
+      "Whether the fluid enters in proportion to the void fraction at each "
+      "point of an inlet, with the same total: none where solids are.");
+    prm.leave_subsection();
+  }
+
+  void
+  BoundaryParameters::check() const
+  {
+    const auto all = conditions();
+    require(std::any_of(all.begin(),
+                        all.end(),
+                        [](const auto &entry) {
+                          return entry.second.kind == BoundaryCondition::pressure;
+                        }),
+            "Boundary conditions/top",
+            "no boundary has a pressure, so that the fluid cannot leave and its pressure "
+            "has no level; \"pressure 0\" at the top is usual");
+  }
+
+  std::map<std::string, BoundaryCondition>
+  BoundaryParameters::conditions() const
+  {
+    const std::string                        section = "Boundary conditions/";
+    std::map<std::string, BoundaryCondition> result;
+    result["bottom"] = BoundaryCondition::read(bottom, section + "bottom");
+    result["top"]    = BoundaryCondition::read(top, section + "top");
+    result["wall"]   = BoundaryCondition::read(wall, section + "wall");
+    for (const std::string &entry : dealii::Utilities::split_string_list(others, '|'))
+      {
+        const auto equals = entry.find('=');
+        require(equals != std::string::npos,
+                section + "others",
+                "\"" + entry + "\" is not of the form name = condition");
+        result[dealii::Utilities::trim(entry.substr(0, equals))] =
+          BoundaryCondition::read(entry.substr(equals + 1), section + "others");
+      }
+    return result;
+  }
+} // namespace graupel

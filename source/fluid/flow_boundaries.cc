@@ -1,0 +1,238 @@
+#include <graupel/fluid/flow_boundaries.h>
+
+#include <deal.II/dofs/dof_tools.h>
+#include <deal.II/numerics/vector_tools_constraints.h>
+
+#include <algorithm>
+#include <set>
+
+namespace graupel
+{
+  namespace
+  {
+    std::unique_ptr<dealii::FunctionParser<3>>
+    parse(const BoundaryCondition &condition, const double velocity, const double time)
+    {
+      if (condition.expressions.empty())
+        return nullptr;
+      auto function =
+        std::make_unique<dealii::FunctionParser<3>>(condition.expressions.size());
+      function->initialize("x,y,z,t",
+                           condition.expressions,
+                           {{"V", velocity}, {"pi", dealii::numbers::PI}},
+                           true);
+      function->set_time(time);
+      return function;
+    }
+
+    // Inlets first: where an inlet meets a wall, its flux holds.
+    unsigned int
+    rank(const BoundaryCondition &condition)
+    {
+      return condition.is_inlet()                           ? 0
+             : condition.kind == BoundaryCondition::no_slip ? 1
+                                                            : 2;
+    }
+  } // namespace
+
+  FlowBoundaries::FlowBoundaries(
+    const std::map<dealii::types::boundary_id, BoundaryCondition> &conditions,
+    const bool                                                     weigh_inlets,
+    const FlowSpace                                               &space)
+    : space(space)
+    , weigh_inlets(weigh_inlets)
+  {
+    for (const auto &[id, condition] : conditions)
+      {
+        Boundary boundary;
+        boundary.id        = id;
+        boundary.condition = condition;
+        boundaries.push_back(boundary);
+      }
+    std::stable_sort(
+      boundaries.begin(), boundaries.end(), [](const Boundary &a, const Boundary &b) {
+        return rank(a.condition) < rank(b.condition);
+      });
+    for (NodalVector &component : prescribed_flux)
+      {
+        space.nodes.initialize(component);
+        component.update_ghost_values();
+      }
+    space.nodes.initialize(prescribed_pressure);
+    prescribed_pressure.update_ghost_values();
+
+    for (Boundary &boundary : boundaries)
+      {
+        measure(boundary);
+        if (boundary.condition.is_inlet())
+          inlet_ids.push_back(boundary.id);
+        if (boundary.condition.kind == BoundaryCondition::pressure)
+          outlet_ids.push_back(boundary.id);
+      }
+    find_nodes();
+    make_template();
+  }
+
+  void
+  FlowBoundaries::find_nodes()
+  {
+    const auto &partitioner = *space.nodes.measure().get_partitioner();
+    std::set<dealii::types::global_dof_index> taken;
+    for (Boundary &boundary : boundaries)
+      {
+        if (boundary.condition.kind == BoundaryCondition::slip)
+          continue;
+        std::map<dealii::types::global_dof_index, dealii::Point<3>> found;
+        for (const auto &cell : space.nodes.dof_handler.active_cell_iterators())
+          if (!cell->is_artificial())
+            for (const unsigned int f : cell->face_indices())
+              if (cell->face(f)->at_boundary() &&
+                  cell->face(f)->boundary_id() == boundary.id)
+                for (const unsigned int v : cell->face(f)->vertex_indices())
+                  found.emplace(cell->face(f)->vertex_dof_index(v, 0),
+                                cell->face(f)->vertex(v));
+        const bool is_outlet = boundary.condition.kind == BoundaryCondition::pressure;
+        for (const auto &[index, position] : found)
+          if (is_outlet || (!space.nodes.hanging_nodes.is_constrained(index) &&
+                            taken.insert(index).second))
+            boundary.nodes.push_back(
+              {partitioner.global_to_local(index), index, position});
+      }
+  }
+
+  void
+  FlowBoundaries::measure(Boundary &boundary) const
+  {
+    dealii::Tensor<1, 3> moment, normal;
+    double               area = 0.;
+    for (const auto &point : space.boundary(boundary.id))
+      {
+        area += point.weight;
+        moment += point.weight * dealii::Tensor<1, 3>(point.position);
+        normal += point.weight * point.normal;
+      }
+    const MPI_Comm communicator = space.nodes.mesh.communicator();
+    boundary.area               = dealii::Utilities::MPI::sum(area, communicator);
+    moment                      = dealii::Utilities::MPI::sum(moment, communicator);
+    normal                      = dealii::Utilities::MPI::sum(normal, communicator);
+    if (boundary.area > 0.)
+      boundary.center = dealii::Point<3>(moment / boundary.area);
+    if (normal.norm() > 0.)
+      boundary.inward = -normal / normal.norm();
+  }
+
+  void
+  FlowBoundaries::make_template()
+  {
+    dealii::IndexSet relevant;
+    dealii::DoFTools::extract_locally_relevant_dofs(space.dof_handler, relevant);
+    open.reinit(relevant);
+    dealii::DoFTools::make_hanging_node_constraints(space.dof_handler, open);
+    std::set<dealii::types::boundary_id> slip;
+    for (const Boundary &boundary : boundaries)
+      {
+        if (boundary.condition.kind == BoundaryCondition::slip)
+          slip.insert(boundary.id);
+        if (boundary.condition.is_inlet() ||
+            boundary.condition.kind == BoundaryCondition::no_slip)
+          for (const Node &node : boundary.nodes)
+            for (unsigned int i = 0; i < 3; ++i)
+              open.add_line(3 * node.global + i);
+      }
+    dealii::VectorTools::compute_no_normal_flux_constraints(
+      space.dof_handler, 0, slip, open, space.nodes.mesh.mapping());
+    closed.copy_from(open);
+    closed.close();
+  }
+
+  double
+  FlowBoundaries::mean_void_fraction(const Boundary    &boundary,
+                                     const NodalVector &void_fraction) const
+  {
+    double sum = 0.;
+    for (const auto &point : space.boundary(boundary.id))
+      for (unsigned int a = 0; a < nodes_per_cell; ++a)
+        sum += point.weight * point.value[a] *
+               void_fraction.local_element(space.cell_nodes[point.cell][a]);
+    return dealii::Utilities::MPI::sum(sum, space.nodes.mesh.communicator()) /
+           boundary.area;
+  }
+
+  void
+  FlowBoundaries::prescribe_flux(const Boundary                        &boundary,
+                                 const dealii::FunctionParser<3> *const function,
+                                 const double                           velocity,
+                                 const double                           density,
+                                 const NodalVector                     &void_fraction)
+  {
+    const auto   kind    = boundary.condition.kind;
+    const bool   by_rate = kind == BoundaryCondition::mass_flow_rate;
+    const double mean_alpha =
+      weigh_inlets || by_rate ? mean_void_fraction(boundary, void_fraction) : 1.;
+    const double squared_radius = boundary.area / dealii::numbers::PI;
+    for (const Node &node : boundary.nodes)
+      {
+        dealii::Tensor<1, 3> q = velocity * boundary.inward;
+        if (kind == BoundaryCondition::velocity)
+          for (unsigned int i = 0; i < 3; ++i)
+            q[i] = function->value(node.position, i);
+        else if (kind == BoundaryCondition::parabolic)
+          q *= std::max(
+            0.,
+            2. * (1. - (node.position - boundary.center).norm_square() / squared_radius));
+        else if (by_rate)
+          q = function->value(node.position) * mean_alpha / (density * boundary.area) *
+              boundary.inward;
+        if (weigh_inlets)
+          q *= void_fraction.local_element(node.local) / mean_alpha;
+        for (unsigned int i = 0; i < 3; ++i)
+          {
+            prescribed_flux[i].local_element(node.local) = q[i];
+            open.set_inhomogeneity(3 * node.global + i, q[i]);
+          }
+      }
+  }
+
+  void
+  FlowBoundaries::update(const double       time,
+                         const double       velocity,
+                         const double       density,
+                         const NodalVector &void_fraction)
+  {
+    for (const Boundary &boundary : boundaries)
+      {
+        const auto function = parse(boundary.condition, velocity, time);
+        if (boundary.condition.is_inlet())
+          prescribe_flux(boundary, function.get(), velocity, density, void_fraction);
+        else if (boundary.condition.kind == BoundaryCondition::pressure)
+          for (const Node &node : boundary.nodes)
+            prescribed_pressure.local_element(node.local) =
+              function->value(node.position);
+      }
+    for (NodalVector &component : prescribed_flux)
+      {
+        space.nodes.hanging_nodes.distribute(component);
+        component.update_ghost_values();
+      }
+    closed.copy_from(open);
+    closed.close();
+  }
+
+  double
+  FlowBoundaries::throughput() const
+  {
+    double sum = 0.;
+    for (const auto id : inlet_ids)
+      for (const auto &point : space.boundary(id))
+        {
+          double normal_flux = 0.;
+          for (unsigned int a = 0; a < nodes_per_cell; ++a)
+            for (unsigned int i = 0; i < 3; ++i)
+              normal_flux +=
+                point.normal[i] * point.value[a] *
+                prescribed_flux[i].local_element(space.cell_nodes[point.cell][a]);
+          sum += point.weight * std::abs(normal_flux);
+        }
+    return dealii::Utilities::MPI::sum(sum, space.nodes.mesh.communicator());
+  }
+} // namespace graupel
