@@ -17,9 +17,10 @@ namespace graupel
         state.void_fraction_rate[a] = alpha_rate.local_element(node);
         for (unsigned int i = 0; i < 3; ++i)
           {
-            state.flux[a][i]    = carrier[i].local_element(node);
-            state.history[a][i] = history[i].local_element(node);
-            state.source[a][i]  = medium.drag_source[i].local_element(node);
+            state.flux[a][i]        = carrier[i].local_element(node);
+            state.history[a][i]     = history[i].local_element(node);
+            state.drag_source[a][i] = medium.drag_source[i].local_element(node);
+            state.force[a][i]       = medium.force[i].local_element(node);
           }
       }
     return state;

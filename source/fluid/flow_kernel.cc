@@ -16,6 +16,7 @@ namespace graupel
       double       flux_divergence    = 0.;
       Tensor<1, 3> flux;
       Tensor<1, 3> history;
+      Tensor<1, 3> force;
       // The known terms of the momentum residual [N/m^3].
       Tensor<1, 3> source;
     };
@@ -36,9 +37,10 @@ namespace graupel
           result.flux_divergence += point.gradient[a] * state.flux[a];
           result.flux += psi * state.flux[a];
           result.history += psi * state.history[a];
-          result.source += psi * state.source[a];
+          result.force += psi * state.force[a];
+          result.source += psi * state.drag_source[a];
         }
-      result.source -= coefficients.density * result.history;
+      result.source += result.force - coefficients.density * result.history;
       return result;
     }
   } // namespace
@@ -118,8 +120,9 @@ namespace graupel
 
         for (unsigned int i = 0; i < 3; ++i)
           rhs[row + i] +=
-            point.weight * (-psi_a * rho * here.history[i] + upwind[a] * here.source[i] -
-                            gamma * grad_a[i] * here.void_fraction_rate);
+            point.weight *
+            (psi_a * (here.force[i] - rho * here.history[i]) +
+             upwind[a] * here.source[i] - gamma * grad_a[i] * here.void_fraction_rate);
         rhs[row + 3] += point.weight * (tau * (grad_a * here.source) -
                                         psi_a * state.void_fraction_rate[a]);
       }

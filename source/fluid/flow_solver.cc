@@ -41,9 +41,12 @@ namespace graupel
     void_fraction = 1.;
     for (NodalVector *vector : {&void_fraction, &drag, &volume_source})
       vector->update_ghost_values();
-    for (NodalVector &component : drag_source)
-      nodes.initialize(component);
-    update_ghosts(drag_source);
+    for (NodalVectorField *field : {&drag_source, &force})
+      {
+        for (NodalVector &component : *field)
+          nodes.initialize(component);
+        update_ghosts(*field);
+      }
   }
 
   FlowSolver::FlowSolver(const FlowParameters &parameters,

@@ -44,15 +44,14 @@ namespace
     double
     pressure_drop() const
     {
-      return flow.mean_pressure(VesselMesh::bottom) -
-             flow.mean_pressure(VesselMesh::top);
+      return flow.mean_pressure(VesselMesh::bottom) - flow.mean_pressure(VesselMesh::top);
     }
 
-    CostSheet    costs;
-    VesselMesh   mesh;
-    NodalSpace   nodes;
-    FlowSolver   flow;
-    Medium       medium;
+    CostSheet  costs;
+    VesselMesh mesh;
+    NodalSpace nodes;
+    FlowSolver flow;
+    Medium     medium;
   };
 } // namespace
 

@@ -11,7 +11,7 @@
  * The volume-averaged Navier-Stokes equations at a quadrature point. Unknowns: the
  * volumetric flux q = alpha u and the pressure p, without its hydrostatic part,
  *
- *   rho dq/dt + rho div(q q / alpha) = -w grad p + div(alpha tau(u)) - (B u - C)
+ *   rho dq/dt + rho div(q q / alpha) = -w grad p + div(alpha tau(u)) - (B u - C) + f
  *   div q = -d(alpha)/dt + s,
  *
  * with u = q / alpha node by node, w = alpha where both phases share the pressure
@@ -55,7 +55,9 @@ namespace graupel
     /** The known part of dq/dt [m/s^2]. */
     std::array<dealii::Tensor<1, 3>, nodes_per_cell> history;
     /** C [N/m^3]. */
-    std::array<dealii::Tensor<1, 3>, nodes_per_cell> source;
+    std::array<dealii::Tensor<1, 3>, nodes_per_cell> drag_source;
+    /** f [N/m^3]. */
+    std::array<dealii::Tensor<1, 3>, nodes_per_cell> force;
   };
 
   /** Basis functions at one quadrature point. */

@@ -16,11 +16,13 @@ namespace graupel
     NodalVector void_fraction;
     /** B, the drag coefficient a volume [kg/m^3/s]. */
     NodalVector drag;
-    /** C = B v for particles that move with v, and any other force [N/m^3]. */
+    /** C = B v for particles that move with v [N/m^3]. */
     NodalVectorField drag_source;
     /** Whether the solids carry their share of the pressure gradient (model A)
      * or the fluid all of it (model B). */
     bool shares_pressure = true;
+    /** Any further force on the fluid [N/m^3]. */
+    NodalVectorField force;
     /** s, volume that appears per volume and time [1/s]. */
     NodalVector volume_source;
 
