@@ -6,7 +6,8 @@ namespace graupel
   FlowSolver::gather(const unsigned int cell, const Medium &medium) const
   {
     CellState state;
-    state.size = space.cell_sizes[cell];
+    state.size          = space.cell_sizes[cell];
+    state.drag_on_nodes = space.has_hanging_node[cell];
     for (unsigned int a = 0; a < nodes_per_cell; ++a)
       {
         const unsigned int node     = space.cell_nodes[cell][a];
@@ -130,14 +131,16 @@ namespace graupel
   void
   FlowSolver::add_nodal_drag(const Medium &medium)
   {
-    // Node by node and not cell by cell: the coupling's adjoint pair needs the
-    // drag on the fluid to be exactly m_k (B_k u_k - C_k).
+    // A product of nodal values at a hanging node is not the mean of the products at
+    // its parents: only node by node is the drag what the coupling's particles feel.
     dealii::FullMatrix<double>                   node_matrix(3, 3);
     dealii::Vector<double>                       node_rhs(3);
     std::vector<dealii::types::global_dof_index> unknowns(3);
     for (unsigned int k = 0; k < medium.drag.locally_owned_size(); ++k)
       {
-        const double measure = nodes.measure().local_element(k);
+        const double measure = space.hanging_measure.local_element(k);
+        if (measure == 0.)
+          continue;
         for (unsigned int i = 0; i < 3; ++i)
           {
             unknowns[i] = 3 * nodes.measure().get_partitioner()->local_to_global(k) + i;

@@ -16,7 +16,7 @@ namespace graupel
       double       flux_divergence    = 0.;
       Tensor<1, 3> flux;
       Tensor<1, 3> history;
-      Tensor<1, 3> force;
+      Tensor<1, 3> drag_source;
       // The known terms of the momentum residual [N/m^3].
       Tensor<1, 3> source;
     };
@@ -37,10 +37,10 @@ namespace graupel
           result.flux_divergence += point.gradient[a] * state.flux[a];
           result.flux += psi * state.flux[a];
           result.history += psi * state.history[a];
-          result.force += psi * state.force[a];
-          result.source += psi * state.drag_source[a];
+          result.drag_source += psi * state.drag_source[a];
+          result.source += psi * state.force[a];
         }
-      result.source += result.force - coefficients.density * result.history;
+      result.source += result.drag_source - coefficients.density * result.history;
       return result;
     }
   } // namespace
@@ -78,6 +78,9 @@ namespace graupel
     std::array<double, nodes_per_cell> galerkin; // acceleration and convection of node b
     std::array<double, nodes_per_cell> strong;   // the same with the drag: its residual
     std::array<double, nodes_per_cell> upwind;   // test function of SUPG
+    // Where the drag is put on the nodes, it enters the residual only.
+    const double       drag_here      = state.drag_on_nodes ? 0. : 1.;
+    const Tensor<1, 3> galerkin_force = here.source - (1. - drag_here) * here.drag_source;
     for (unsigned int b = 0; b < nodes_per_cell; ++b)
       {
         const double along = here.flux * point.gradient[b];
@@ -86,6 +89,7 @@ namespace graupel
           rho * (coefficients.rate * psi +
                  (along + here.flux_divergence * psi) / state.void_fraction[b]);
         strong[b] = galerkin[b] + state.resistance[b] * psi;
+        galerkin[b] += drag_here * state.resistance[b] * psi;
         upwind[b] = tau * rho * along / alpha;
       }
 
@@ -120,9 +124,8 @@ namespace graupel
 
         for (unsigned int i = 0; i < 3; ++i)
           rhs[row + i] +=
-            point.weight *
-            (psi_a * (here.force[i] - rho * here.history[i]) +
-             upwind[a] * here.source[i] - gamma * grad_a[i] * here.void_fraction_rate);
+            point.weight * (psi_a * galerkin_force[i] + upwind[a] * here.source[i] -
+                            gamma * grad_a[i] * here.void_fraction_rate);
         rhs[row + 3] += point.weight * (tau * (grad_a * here.source) -
                                         psi_a * state.void_fraction_rate[a]);
       }

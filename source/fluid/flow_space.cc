@@ -17,6 +17,7 @@ namespace graupel
     number_unknowns();
     store_cells();
     store_faces();
+    measure_hanging();
     assemble_gradient(outlets);
   }
 
@@ -125,6 +126,37 @@ namespace graupel
     static const std::vector<FacePoint> none;
     const auto                          found = faces.find(id);
     return found == faces.end() ? none : found->second;
+  }
+
+  void
+  FlowSpace::measure_hanging()
+  {
+    const auto &partitioner = *nodes.measure().get_partitioner();
+    nodes.initialize(hanging_measure);
+    dealii::Vector<double>                       volumes(nodes_per_cell);
+    std::vector<dealii::types::global_dof_index> indices(nodes_per_cell);
+    for (unsigned int cell = 0; cell < n_cells(); ++cell)
+      {
+        bool hanging = false;
+        for (unsigned int a = 0; a < nodes_per_cell; ++a)
+          {
+            indices[a] = partitioner.local_to_global(cell_nodes[cell][a]);
+            hanging    = hanging || nodes.hanging_nodes.is_constrained(indices[a]);
+          }
+        has_hanging_node.push_back(hanging);
+        if (!hanging)
+          continue;
+        volumes = 0.;
+        for (unsigned int q = 0; q < points_per_cell; ++q)
+          {
+            const ShapePoint &point = shapes[cell * points_per_cell + q];
+            for (unsigned int a = 0; a < nodes_per_cell; ++a)
+              volumes[a] += point.weight * point.value[a];
+          }
+        nodes.hanging_nodes.distribute_local_to_global(volumes, indices, hanging_measure);
+      }
+    hanging_measure.compress(dealii::VectorOperation::add);
+    hanging_measure.update_ghost_values();
   }
 
   void

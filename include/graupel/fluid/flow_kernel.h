@@ -44,6 +44,8 @@ namespace graupel
     /** Cube root of the cell's volume [m]. */
     double                             size;
     std::array<double, nodes_per_cell> void_fraction;
+    /** Whether the solver adds the drag node by node. */
+    bool drag_on_nodes = false;
     /** B / alpha, the resistance to the flux [kg/m^3/s]. */
     std::array<double, nodes_per_cell> resistance;
     /** w, the share of the pressure gradient that acts on the fluid [-]. */

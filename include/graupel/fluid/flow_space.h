@@ -64,6 +64,10 @@ namespace graupel
     std::vector<LocalNodes>                                   cell_nodes;
     std::vector<double>                                       cell_sizes;
     std::vector<dealii::Point<3>>                             cell_centers;
+    /** By owned cell: whether one of its nodes hangs. */
+    std::vector<bool> has_hanging_node;
+    /** The part of the nodes' volumes that lies in such cells [m^3]. */
+    NodalVector hanging_measure;
     /** Quadrature points, cell after cell. */
     std::vector<ShapePoint> shapes;
     unsigned int            points_per_cell;
@@ -78,6 +82,7 @@ namespace graupel
     void number_unknowns();
     void store_cells();
     void store_faces();
+    void measure_hanging();
     void assemble_gradient(const std::vector<dealii::types::boundary_id> &outlets);
 
     std::map<dealii::types::boundary_id, std::vector<FacePoint>> faces;
