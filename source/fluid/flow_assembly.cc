@@ -2,6 +2,12 @@
 
 namespace graupel
 {
+  FlowCoefficients
+  FlowSolver::coefficients() const
+  {
+    return {density, viscosity, scheme.now, parameters.grad_div, fastest};
+  }
+
   CellState
   FlowSolver::gather(const unsigned int cell, const Medium &medium) const
   {
@@ -30,10 +36,10 @@ namespace graupel
   void
   FlowSolver::assemble(const Medium &medium)
   {
-    matrix = 0.;
-    rhs    = 0.;
-    const FlowCoefficients coefficients{
-      density, viscosity, scheme.now, parameters.grad_div};
+    matrix                              = 0.;
+    rhs                                 = 0.;
+    fastest                             = fastest_speed(medium.void_fraction);
+    const FlowCoefficients coefficients = this->coefficients();
     for (unsigned int cell = 0; cell < space.n_cells(); ++cell)
       {
         const CellState state = gather(cell, medium);
@@ -158,9 +164,8 @@ namespace graupel
   void
   FlowSolver::assemble_schur(const Medium &medium)
   {
-    schur = 0.;
-    const FlowCoefficients coefficients{
-      density, viscosity, scheme.now, parameters.grad_div};
+    schur                                                     = 0.;
+    const FlowCoefficients                       coefficients = this->coefficients();
     dealii::FullMatrix<double>                   local(nodes_per_cell, nodes_per_cell);
     std::vector<dealii::types::global_dof_index> indices(nodes_per_cell);
     std::vector<double>                          conductivity(space.n_cells());
@@ -183,8 +188,7 @@ namespace graupel
             resistance += state.resistance[a] / nodes_per_cell;
             speed += state.flux[a].norm() / state.void_fraction[a] / nodes_per_cell;
           }
-        const double tau =
-          stabilization_time(coefficients, resistance, speed, state.size);
+        const double tau      = stabilization_time(coefficients, resistance, state.size);
         const double reaction = density * (scheme.now + 2. * speed / state.size) +
                                 resistance + viscosity / (state.size * state.size);
         conductivity[cell] = alpha * (1. / reaction + tau);

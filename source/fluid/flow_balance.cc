@@ -96,6 +96,25 @@ namespace graupel
   }
 
   double
+  FlowSolver::fastest_speed(const NodalVector &void_fraction) const
+  {
+    double squared = 0.;
+    for (unsigned int k = 0; k < void_fraction.locally_owned_size(); ++k)
+      {
+        const double         alpha = void_fraction.local_element(k);
+        dealii::Tensor<1, 3> q, inlet;
+        for (unsigned int i = 0; i < 3; ++i)
+          {
+            q[i]     = carrier[i].local_element(k);
+            inlet[i] = boundaries.flux()[i].local_element(k);
+          }
+        squared = std::max(
+          squared, std::max(q.norm_square(), inlet.norm_square()) / alpha / alpha);
+      }
+    return std::sqrt(dealii::Utilities::MPI::max(squared, nodes.mesh.communicator()));
+  }
+
+  double
   FlowSolver::courant_rate() const
   {
     double rate = 0.;

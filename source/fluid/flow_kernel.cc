@@ -48,13 +48,11 @@ namespace graupel
   double
   stabilization_time(const FlowCoefficients &coefficients,
                      const double            resistance,
-                     const double            speed,
                      const double            size)
   {
-    const double reaction   = coefficients.density * coefficients.rate + resistance;
-    const double convection = 2. * coefficients.density * speed / size;
+    const double convection = 2. * coefficients.density * coefficients.speed / size;
     const double diffusion  = 12. * coefficients.viscosity / (size * size);
-    return 1. / std::sqrt(reaction * reaction + convection * convection +
+    return 1. / std::sqrt(resistance * resistance + convection * convection +
                           diffusion * diffusion);
   }
 
@@ -69,9 +67,8 @@ namespace graupel
     const PointState here  = interpolate(coefficients, state, point);
     const double     alpha = here.void_fraction;
     const double     speed = here.flux.norm() / alpha;
-    const double     tau =
-      stabilization_time(coefficients, here.resistance, speed, state.size);
-    const double gamma =
+    const double     tau = stabilization_time(coefficients, here.resistance, state.size);
+    const double     gamma =
       coefficients.grad_div * (rho * speed * state.size + coefficients.viscosity) / alpha;
     const double mu_alpha = coefficients.viscosity * alpha;
 

@@ -88,8 +88,6 @@ namespace graupel
                                              const double                  density,
                                              const double                  viscosity)
     : duration(parameters.duration)
-    , density(density)
-    , viscosity(viscosity)
     , function(n_fields)
   {
     NeededSources sources;
@@ -259,13 +257,11 @@ namespace graupel
   }
 
   FlowErrors
-  ManufacturedSolution::run(const FlowParameters &parameters,
-                            const NodalSpace     &nodes,
-                            const double          step,
-                            CostSheet            &costs) const
+  ManufacturedSolution::run(FlowSolver       &flow,
+                            const NodalSpace &nodes,
+                            const double      step) const
   {
-    FlowSolver flow(with_boundaries(parameters), density, viscosity, nodes, costs);
-    Medium     medium(nodes);
+    Medium medium(nodes);
     start(flow, nodes);
     unsigned int solves = 0;
     if (duration == 0.)

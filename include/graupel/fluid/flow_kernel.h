@@ -36,6 +36,8 @@ namespace graupel
     double rate;
     /** Factor of the grad-div term [-]. */
     double grad_div;
+    /** The fastest interstitial speed in the vessel [m/s]. */
+    double speed;
   };
 
   /** What the nodes of one cell know, old flux (lagged) included. */
@@ -75,16 +77,19 @@ namespace graupel
   /**
    * Stabilisation time scale over density [m^3 s/kg],
    *
-   *   tau = [(rho rate + R)^2 + (2 rho |u| / h)^2 + (12 mu / h^2)^2]^(-1/2),
+   *   tau = [R^2 + (2 rho U / h)^2 + (12 mu / h^2)^2]^(-1/2),
    *
-   * with R = B / alpha. Containing the drag, it keeps the pressure drop of a bed
-   * independent of the time step.
+   * with R = B / alpha and U the fastest speed in the vessel. The time step is
+   * not in it, so that neither the steady state nor the observed order in time
+   * depend on the stabilisation; U instead of the local speed keeps tau from
+   * exceeding any useful time step where the fluid is slow, which would spoil the
+   * linear system.
    * Source: Tezduyar & Osawa (2000), doi:10.1016/S0045-7825(00)00211-5, with the drag
-   * added to the reaction.
+   * as reaction and without the time step: Bochev, Gunzburger & Lehoucq (2007),
+   * doi:10.1002/fld.1295.
    */
   double stabilization_time(const FlowCoefficients &coefficients,
                             const double            resistance,
-                            const double            speed,
                             const double            size);
 
   /**

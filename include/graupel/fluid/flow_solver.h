@@ -149,17 +149,19 @@ namespace graupel
     double courant_rate() const;
 
   private:
-    void         prepare_matrices();
-    void         prepare_rates(const Medium &medium, const double step);
-    CellState    gather(const unsigned int cell, const Medium &medium) const;
-    void         assemble(const Medium &medium);
-    void         assemble_inlets();
-    void         assemble_outlets(const Medium &medium);
-    void         distribute(const unsigned int cell);
-    void         add_nodal_drag(const Medium &medium);
-    void         assemble_schur(const Medium &medium);
-    unsigned int solve();
-    unsigned int solve_to(const double tolerance);
+    void             prepare_matrices();
+    void             prepare_rates(const Medium &medium, const double step);
+    CellState        gather(const unsigned int cell, const Medium &medium) const;
+    FlowCoefficients coefficients() const;
+    double           fastest_speed(const NodalVector &void_fraction) const;
+    void             assemble(const Medium &medium);
+    void             assemble_inlets();
+    void             assemble_outlets(const Medium &medium);
+    void             distribute(const unsigned int cell);
+    void             add_nodal_drag(const Medium &medium);
+    void             assemble_schur(const Medium &medium);
+    unsigned int     solve();
+    unsigned int     solve_to(const double tolerance);
     // Iterations, or invalid_unsigned_int after @p maximum of them.
     unsigned int iterate(const double tolerance, const unsigned int maximum);
     void         refresh_preconditioner();
@@ -181,6 +183,7 @@ namespace graupel
     double           superficial_velocity = 0.;
     double           throughput           = 0.; // inflow, never 0 [m^3/s]
     double           time                 = 0.; // of the flux [s]
+    double           fastest              = 0.; // largest speed [m/s]
     NodalVectorField outlet_traction;
 
     dealii::TrilinosWrappers::BlockSparseMatrix matrix;

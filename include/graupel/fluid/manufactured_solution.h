@@ -74,14 +74,11 @@ namespace graupel
                       const double      time) const;
 
     /**
-     * Computes the flow from the time 0 on through @p duration [s] in steps of
-     * @p step [s], or where the duration is 0 the steady state, in a vessel.
-     * Collective.
+     * Computes the flow in @p flow, whose parameters are of with_boundaries(), from the
+     * time 0 on through the duration in steps of @p step [s], or where the duration is
+     * 0 the steady state. Collective.
      */
-    FlowErrors run(const FlowParameters &parameters,
-                   const NodalSpace     &nodes,
-                   const double          step,
-                   CostSheet            &costs) const;
+    FlowErrors run(FlowSolver &flow, const NodalSpace &nodes, const double step) const;
 
   private:
     // Numbers of the expressions in the function.
@@ -103,7 +100,7 @@ namespace graupel
                   const unsigned int field,
                   const double       time) const;
 
-    const double                      duration, density, viscosity;
+    const double                      duration;
     std::vector<std::string>          expressions;
     mutable dealii::FunctionParser<3> function; // its time is set at each use
   };
