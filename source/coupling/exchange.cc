@@ -32,6 +32,14 @@ namespace graupel
   {
     prm.enter_subsection("Coupling");
     prm.add_parameter(
+      "model",
+      model,
+      "A: fluid and solids share the pressure gradient by their volumes; B: it acts on "
+      "the fluid alone, and the drag is larger by one over the void fraction. In a "
+      "uniform "
+      "bed both give the same pressure drop.",
+      dealii::Patterns::Selection("A|B"));
+    prm.add_parameter(
       "filter length",
       filter_length,
       "Length of the filter that spreads a particle's volume and drag over the "
@@ -77,6 +85,7 @@ namespace graupel
   }
 
   Exchange::Exchange(const double                   filter_length,
+                     const bool                     shares_pressure,
                      const std::vector<DragOfType> &drags,
                      const NodalSpace              &nodes,
                      CostSheet                     &costs)
@@ -87,6 +96,7 @@ namespace graupel
     , transfer(nodes)
     , result(nodes)
   {
+    result.shares_pressure = shares_pressure;
     nodes.initialize(solid_fraction);
     nodes.initialize(scratch);
     for (NodalVectorField *field : {&interstitial, &smooth_velocity, &smooth_gradient})
@@ -171,6 +181,8 @@ namespace graupel
             const auto &[drag, radius] = drags[particles.type[row]];
             beta[row] =
               drag.beta(alpha[row], slip.norm(), particles.body[row].radius / radius);
+            if (!result.shares_pressure)
+              beta[row] /= alpha[row];
           }
         catch (const std::exception &error)
           {
@@ -203,9 +215,13 @@ namespace graupel
     fluid_force = 0.;
     for (unsigned int i = 0; i < 3; ++i)
       {
-        filter.smooth(smooth_gradient[i], pressure_gradient[i]);
         transfer.sample(velocity, smooth_velocity[i]);
-        transfer.sample(gradient, smooth_gradient[i]);
+        gradient.assign(particles.n_owned, 0.);
+        if (result.shares_pressure)
+          {
+            filter.smooth(smooth_gradient[i], pressure_gradient[i]);
+            transfer.sample(gradient, smooth_gradient[i]);
+          }
         for (unsigned int row = 0; row < particles.n_owned; ++row)
           {
             force[row][i] =
@@ -224,6 +240,7 @@ namespace graupel
   void
   Exchange::keep_ledger(const FlowSolver &flow, const NodalVectorField &pressure_gradient)
   {
+    const double         share = result.shares_pressure ? 1. : 0.;
     dealii::Tensor<1, 3> lost;
     for (unsigned int i = 0; i < 3; ++i)
       for (unsigned int k = 0; k < scratch.locally_owned_size(); ++k)
@@ -232,8 +249,9 @@ namespace graupel
           const double drag =
             result.drag.local_element(k) * flow.flux()[i].local_element(k) / alpha -
             result.drag_source[i].local_element(k);
-          lost[i] += nodes.measure().local_element(k) *
-                     (drag - (1. - alpha) * pressure_gradient[i].local_element(k));
+          lost[i] +=
+            nodes.measure().local_element(k) *
+            (drag - share * (1. - alpha) * pressure_gradient[i].local_element(k));
         }
     lost              = dealii::Utilities::MPI::sum(lost, nodes.mesh.communicator());
     const double size = std::max(lost.norm(), fluid_force.norm());

@@ -27,7 +27,11 @@ namespace graupel
     for (const auto &type : parameters.dem.types())
       drags.push_back({Drag(parameters.drag, parameters.fluid, type.diameter, type.scale),
                        0.5 * type.scale * type.diameter});
-    particles_and_fluid.emplace(parameters.filter_length(), drags, *node_space, costs);
+    particles_and_fluid.emplace(parameters.filter_length(),
+                                parameters.coupling.model == "A",
+                                drags,
+                                *node_space,
+                                costs);
   }
 
   void
@@ -48,6 +52,27 @@ namespace graupel
                                   parameters.fluid.density,
                                   parameters.dem.particles.gravity);
     return report;
+  }
+
+  FlowSolver::Report
+  CoupledFlow::find_steady_state(const std::function<void(const double)> &tell)
+  {
+    unsigned int iterations = 0;
+    for (unsigned int n = 1; n <= parameters.sweep.maximum_solves; ++n)
+      {
+        auto report = step(FlowSolver::steady);
+        iterations += report.iterations;
+        tell(report.change);
+        if (report.change <= parameters.flow.nonlinear_tolerance)
+          {
+            report.iterations           = iterations;
+            report.nonlinear_iterations = n;
+            return report;
+          }
+      }
+    throw SolverFailure("The flow through the resting bed found no steady state within " +
+                        std::to_string(parameters.sweep.maximum_solves) +
+                        " linear systems. It may have none: try Flow/mode = transient.");
   }
 
   double

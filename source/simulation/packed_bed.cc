@@ -14,6 +14,9 @@ namespace graupel
     // Part of a case, at its end, over which its numbers are means.
     constexpr double averaged_part = 0.25;
 
+    // A step of the fluid that fails is tried with its half, so often.
+    constexpr unsigned int maximum_halvings = 6;
+
     // While there is no fluid: simulated time between two looks at how particles
     // are spread over the ranks [s], and what a cell counts, in particles.
     constexpr double balance_interval    = 0.1;
@@ -72,6 +75,8 @@ namespace graupel
     , dem(parameters.dem, mesh, summary.costs)
     , observables(dem.particles(), dem.cylinder(), communicator)
     , next_output(parameters.output.interval)
+    , step_limit(parameters.sweep.time_step)
+    , steady(parameters.sweep.steady_window, parameters.sweep.steady_tolerance, 1.)
     , started(Progress::steady_seconds())
   {
     summary.parameter_file = parameter_file;
@@ -175,39 +180,32 @@ namespace graupel
   PackedBed::run_case(const double superficial_velocity)
   {
     const unsigned int number = summary.cases.size() + 1;
+    const double       begin  = time;
+    const double       wall = Progress::steady_seconds(), cpu = cpu_seconds();
+    const bool         is_still = parameters.sweep.mode == "steady";
     const double       duration =
-      parameters.sweep.case_duration(superficial_velocity, parameters.cylinder.height);
-    const auto n_steps = static_cast<unsigned int>(
-      std::ceil(duration / parameters.sweep.time_step * (1. - 1e-12)));
-    const double begin = time, wall = Progress::steady_seconds(), cpu = cpu_seconds();
+      is_still ? 0.
+                     : parameters.sweep.case_duration(superficial_velocity,
+                                                parameters.cylinder.height);
     std::ostringstream name;
     name << "flow " << number << "/" << parameters.sweep.superficial_velocities.size()
          << ", V_s " << superficial_velocity << " m/s";
-    progress.start_phase(name.str(), 0., duration);
+    progress.start_phase(
+      name.str(), 0., is_still ? parameters.sweep.maximum_solves : duration);
 
-    SteadyMonitor steady(
+    steady = SteadyMonitor(
       parameters.sweep.steady_window, parameters.sweep.steady_tolerance, dem.weight());
     case_rows.clear();
     coupled->set_superficial_velocity(superficial_velocity);
-    for (unsigned int step = 0; step < n_steps; ++step)
-      {
-        step_fluid(duration / n_steps);
-        MonitorRow row           = monitor("flow");
-        row.flow_case            = number;
-        row.superficial_velocity = superficial_velocity;
-        files.add_monitor(row);
-        case_rows.push_back(row);
-        steady.record(row);
-        write_fields_if_due();
-        progress.update(time - begin);
-        if (parameters.sweep.stop_when == "steady" && steady.is_steady())
-          break;
-      }
+    if (is_still)
+      run_steady(number);
+    else
+      run_transient(number, duration);
     progress.finish_phase();
 
     CaseResult result;
     result.superficial_velocity = superficial_velocity;
-    result.steady               = steady.is_steady();
+    result.steady               = is_still || steady.is_steady();
     result.simulated_time       = time - begin;
     evaluate(result, number);
     result.wall_seconds = Progress::steady_seconds() - wall;
@@ -216,14 +214,86 @@ namespace graupel
   }
 
   void
-  PackedBed::step_fluid(const double step)
+  PackedBed::run_transient(const unsigned int number, const double duration)
   {
-    last_report = coupled->step(step);
+    const double begin = time;
+    step_limit         = parameters.sweep.time_step;
+    while (time - begin < duration * (1. - 1e-12))
+      {
+        move_particles(step_fluid(next_step(duration - (time - begin))));
+        record_monitor(number);
+        write_fields_if_due();
+        progress.update(time - begin);
+        if (parameters.sweep.stop_when == "steady" && steady.is_steady())
+          break;
+      }
+  }
+
+  void
+  PackedBed::run_steady(const unsigned int number)
+  {
+    unsigned int n = 0;
+    last_report = coupled->find_steady_state([&](const double) { progress.update(++n); });
+    std::ostringstream text;
+    text << "steady flow after " << n << " linear systems";
+    progress.say(text.str());
+    // So that bottom and wall carry what the fluid leaves them.
+    move_particles(parameters.sweep.steady_window);
+    record_monitor(number);
+  }
+
+  double
+  PackedBed::next_step(const double remaining) const
+  {
+    double       step = std::min(parameters.sweep.time_step, step_limit);
+    const double rate = coupled->fluid().courant_rate();
+    if (parameters.sweep.courant_number > 0. && rate > 0.)
+      step = std::min(step, parameters.sweep.courant_number / rate);
+    // Steps of one length to the end, so that the last is not a tiny one.
+    return remaining / std::ceil(remaining / step * (1. - 1e-12));
+  }
+
+  double
+  PackedBed::step_fluid(double step)
+  {
+    for (unsigned int halvings = 0;; ++halvings)
+      try
+        {
+          last_report = coupled->step(step);
+          step_limit  = 2. * step;
+          return step;
+        }
+      catch (const SolverFailure &error)
+        {
+          if (halvings == maximum_halvings)
+            throw;
+          step *= 0.5;
+          std::ostringstream text;
+          text << "at " << time << " s: " << error.what() << " Trying a step of " << step
+               << " s.";
+          progress.say(text.str());
+        }
+  }
+
+  void
+  PackedBed::move_particles(const double step)
+  {
     dem.advance(step);
     time += step;
     summary.ledger.record(last_report.mass_imbalance,
                           coupled->exchange().momentum_imbalance(),
                           coupled->exchange().solid_volume_error());
+  }
+
+  void
+  PackedBed::record_monitor(const unsigned int number)
+  {
+    MonitorRow row           = monitor("flow");
+    row.flow_case            = number;
+    row.superficial_velocity = parameters.sweep.superficial_velocities[number - 1];
+    files.add_monitor(row);
+    case_rows.push_back(row);
+    steady.record(row);
   }
 
   MonitorRow

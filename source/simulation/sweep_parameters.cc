@@ -21,10 +21,25 @@ namespace graupel
       "The flow cases, one superficial velocity each, run one after the other "
       "on the same bed; an empty list ends the run after settling [m/s].");
     prm.add_parameter(
+      "mode",
+      mode,
+      "transient: fluid and particles move through time; steady: each case is the steady "
+      "flow through the resting bed, found in some ten linear systems, after which the "
+      "particles are held against it for one steady window. For beds below their onset.",
+      dealii::Patterns::Selection("transient|steady"));
+    prm.add_parameter("maximum solves",
+                      maximum_solves,
+                      "Linear systems after which a steady flow has not been found [-].");
+    prm.add_parameter(
       "time step",
       time_step,
-      "Step of the fluid; particles take their own smaller substeps within it "
+      "Step of the fluid, at most; particles take their own smaller substeps within it "
       "[s].");
+    prm.add_parameter("Courant number",
+                      courant_number,
+                      "Largest speed times step over cell size: the step is shortened to "
+                      "hold it; 0: steps "
+                      "of Flow/time step whatever it is [-].");
     prm.add_parameter(
       "stop when",
       stop_when,
@@ -70,6 +85,10 @@ namespace graupel
             "Flow/steady window",
             "must hold at least two of Flow/time step");
     require(maximum_time > 0., "Flow/maximum time", "must be positive");
+    require(courant_number >= 0.,
+            "Flow/Courant number",
+            "must not be negative; 0 switches it off, 1 to 5 is usual");
+    require(maximum_solves >= 2, "Flow/maximum solves", "must be at least 2");
   }
 
   void
@@ -90,10 +109,11 @@ namespace graupel
                       "Points across the vessel at which the mid-plane is sampled [-].");
     prm.add_parameter(
       "annuli", annuli, "Annuli of equal width in the radial profiles [-].");
-    prm.add_parameter("force chains",
-                      force_chains,
-                      "Whether the contacts are written for ParaView, after settling and at "
-                      "the end of each flow case.");
+    prm.add_parameter(
+      "force chains",
+      force_chains,
+      "Whether the contacts are written for ParaView, after settling and at "
+      "the end of each flow case.");
     prm.add_parameter(
       "report", report, "Whether report.html is made at the end of the run.");
     prm.leave_subsection();

@@ -61,9 +61,9 @@ TEST(VesselMesh, FillsTheCylinderToTheOrderOfTheMapping)
   for (const double cell_size : {6.4e-3, 3.2e-3})
     {
       const VesselMesh mesh(cylinder, {cell_size}, MPI_COMM_WORLD);
-      const Measures     found  = measure(mesh);
-      const double       volume = cylinder.cross_section() * cylinder.height;
-      const double       error  = std::abs(found.volume / volume - 1.);
+      const Measures   found  = measure(mesh);
+      const double     volume = cylinder.cross_section() * cylinder.height;
+      const double     error  = std::abs(found.volume / volume - 1.);
       // A quadratic arc over an angle t errs by t^4 in area: with 16 arcs round
       // the coarse circle below 1e-4, and 16 times less after one refinement.
       EXPECT_LE(error, 1e-3) << "volume " << found.volume << " of " << volume;

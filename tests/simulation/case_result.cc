@@ -63,8 +63,8 @@ TEST(Profiles, AverageLinearFieldsExactly)
   // p = 5 - 100 z: every slab's mean pressure is that of its mean height, and
   // the value between two slabs is linear.
   const VesselMesh mesh({0.025, 0.05}, {3.2e-3, 0.}, MPI_COMM_WORLD);
-  const NodalSpace   nodes(mesh);
-  NodalVector        pressure, alpha, flux;
+  const NodalSpace nodes(mesh);
+  NodalVector      pressure, alpha, flux;
   for (NodalVector *vector : {&pressure, &alpha, &flux})
     nodes.initialize(*vector);
   const auto &partitioner = *nodes.measure().get_partitioner();

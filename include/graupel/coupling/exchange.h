@@ -22,10 +22,13 @@ namespace graupel
   /** How particles and fluid feel each other, beside the drag law. */
   struct CouplingParameters
   {
+    /** "A": the solids carry their share of the pressure gradient; "B": the fluid
+     * carries all of it, with a drag larger by 1 / alpha. */
+    std::string model = "A";
     /** A length [m], or "auto": the simulated diameter / sqrt(2). */
     std::string filter_length = "auto";
 
-    /** Declares its entry in the section "Coupling". */
+    /** Declares the section "Coupling". */
     void declare(dealii::ParameterHandler &prm);
     void check() const;
 
@@ -44,12 +47,18 @@ namespace graupel
    *   F_p = beta_p ((W S u)_p - v_p) - V_p (W S grad p)_p + V_p rho g
    *
    * The last term is buoyancy, as p is the pressure without its hydrostatic part.
+   * That is model A. In model B beta is divided by the void fraction at the particle
+   * and the pressure gradient acts on the fluid alone; in a uniform bed both have the
+   * same pressure gradient.
+   * Source: Gidaspow, Multiphase Flow and Fluidization (1994), ch. 2.
    */
   class Exchange
   {
   public:
-    /** @p filter_length [m]; @p nodes and @p costs must outlive this object. */
+    /** @p filter_length [m]; @p shares_pressure: model A; @p nodes and @p costs must
+     * outlive this object. */
     Exchange(const double                   filter_length,
+             const bool                     shares_pressure,
              const std::vector<DragOfType> &drags,
              const NodalSpace              &nodes,
              CostSheet                     &costs);

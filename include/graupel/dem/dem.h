@@ -245,7 +245,7 @@ namespace graupel
     bool has_external_forces() const;
 
     const DemParameters  input;
-    VesselMesh        &mesh;
+    VesselMesh          &mesh;
     CostSheet           &costs;
     const double         longest_substep;
     const double         skin;

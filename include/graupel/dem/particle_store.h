@@ -143,7 +143,7 @@ namespace graupel
       std::vector<dealii::Point<3>> reference_locations;
     };
 
-    VesselMesh                         &mesh;
+    VesselMesh                           &mesh;
     dealii::GridTools::Cache<3>           cache;
     dealii::Particles::ParticleHandler<3> handler;
     std::vector<CellRows>                 cells;

@@ -87,7 +87,7 @@ namespace graupel
     bool is_steady() const;
 
   private:
-    const double           window, tolerance, force_scale;
+    double                 window, tolerance, force_scale;
     std::deque<MonitorRow> rows;
   };
 

@@ -5,6 +5,7 @@
 #include <graupel/dem/dem.h>
 #include <graupel/simulation/run_parameters.h>
 
+#include <functional>
 #include <optional>
 
 namespace graupel
@@ -30,6 +31,14 @@ namespace graupel
      * sets the force of the fluid on them. The particles do not move.
      */
     FlowSolver::Report step(const double step);
+
+    /**
+     * Finds the steady flow past the particles where they are, drag and convection
+     * converged to "Flow solver/nonlinear tolerance", and sets its force on them.
+     * @p tell is given the relative change after each linear system. Throws
+     * SolverFailure after "Flow/maximum solves" of them.
+     */
+    FlowSolver::Report find_steady_state(const std::function<void(const double)> &tell);
 
     /** Pressure at the bottom minus pressure at the top [Pa]. */
     double pressure_drop() const;

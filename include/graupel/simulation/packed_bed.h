@@ -37,7 +37,12 @@ namespace graupel
     void flow();
 
     CaseResult run_case(const double superficial_velocity);
-    void       step_fluid(const double step);
+    void       run_transient(const unsigned int number, const double duration);
+    void       run_steady(const unsigned int number);
+    double     next_step(const double remaining) const;
+    double     step_fluid(double step);
+    void       move_particles(const double step);
+    void       record_monitor(const unsigned int number);
     MonitorRow monitor(const std::string &phase) const;
     void       write_fields_if_due();
     void       evaluate(CaseResult &result, const unsigned int number);
@@ -58,7 +63,9 @@ namespace graupel
     double                  time = 0.; // simulated, since the run began [s]
     double                  next_output;
     double                  next_balance = 0.;
+    double                  step_limit; // after a step that failed [s]
     FlowSolver::Report      last_report;
+    SteadyMonitor           steady;
     std::vector<MonitorRow> case_rows;
     const double            started;
   };

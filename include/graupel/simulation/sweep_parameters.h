@@ -13,8 +13,14 @@ namespace graupel
   {
     /** One flow case each, run one after the other on the same bed [m/s]. */
     std::vector<double> superficial_velocities{0.271, 0.320, 0.368, 0.423, 0.476, 0.534};
-    /** Step of the fluid, and of the exchange with the particles [s]. */
+    /** "transient", or "steady": each case is the steady flow through the resting bed. */
+    std::string mode = "transient";
+    /** Linear systems after which a steady flow has not been found [-]. */
+    unsigned int maximum_solves = 100;
+    /** Step of the fluid, and of the exchange with the particles, at most [s]. */
     double time_step = 5e-3;
+    /** Courant number that no step exceeds; 0: none [-]. */
+    double courant_number = 0.;
     /** "flow-throughs" or "steady": when a case ends. */
     std::string stop_when = "flow-throughs";
     /** Times that the superficial velocity crosses the vessel's height [-]. */
