@@ -1,6 +1,7 @@
 #include <graupel/base/parameters.h>
 #include <graupel/simulation/packed_bed.h>
 #include <graupel/simulation/report.h>
+#include <graupel/simulation/study_runs.h>
 
 #include <CLI/CLI.hpp>
 
@@ -54,6 +55,34 @@ namespace
                "  graupel prm/packed-bed/ricklick-2x.prm");
   }
 
+  // A study, or one run.
+  void
+  run_whole(const RunParameters &parameters,
+            const std::string   &file,
+            ResultFiles         &files,
+            Progress            &progress)
+  {
+    const RunLevel manufactured = [&](const RunParameters &level,
+                                      const std::string   &directory) {
+      return manufactured_level(level, directory, progress, MPI_COMM_WORLD);
+    };
+    const RunLevel packed_bed = [&](const RunParameters &level,
+                                    const std::string   &directory) {
+      ResultFiles own(directory, MPI_COMM_WORLD);
+      PackedBed   bed(level, file, own, progress, MPI_COMM_WORLD);
+      bed.run();
+      return packed_bed_level(level, bed.result());
+    };
+    if (parameters.manufactured.is_given() || parameters.study.is_wanted())
+      run_study(parameters,
+                parameters.manufactured.is_given() ? manufactured : packed_bed,
+                parameters.output.directory,
+                progress,
+                MPI_COMM_WORLD);
+    else
+      PackedBed(parameters, file, files, progress, MPI_COMM_WORLD).run();
+  }
+
   // Reads, checks and runs. The output directory and whether a report is
   // wanted are left in @p directory and @p report.
   Outcome
@@ -92,7 +121,7 @@ namespace
         Progress progress = is_first_rank()
                               ? Progress(std::cout, stdout_is_terminal(), &files.log())
                               : Progress();
-        PackedBed(parameters, options.file, files, progress, MPI_COMM_WORLD).run();
+        run_whole(parameters, options.file, files, progress);
         directory = parameters.output.directory;
         report    = parameters.output.report;
         return Outcome::finished;

@@ -398,6 +398,7 @@ namespace graupel
   {
     summary.wall_seconds = Progress::steady_seconds() - started;
     summary.cpu_seconds  = cpu_seconds();
+    summary.cells        = mesh.triangulation().n_global_active_cells();
     write_summary(files.path("summary.json"), summary, communicator);
   }
 } // namespace graupel

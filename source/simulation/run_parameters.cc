@@ -27,6 +27,8 @@ namespace graupel
     flow.declare(prm);
     sweep.declare(prm);
     output.declare(prm);
+    study.declare(prm);
+    manufactured.declare(prm);
   }
 
   void
@@ -43,6 +45,8 @@ namespace graupel
     flow.check();
     sweep.check();
     output.check();
+    study.check();
+    manufactured.check();
     require(!dem.walls.is_periodic() || sweep.superficial_velocities.empty(),
             "Walls/top",
             "the fluid enters at the bottom and leaves at the top, so the ends cannot be "

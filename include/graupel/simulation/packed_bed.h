@@ -29,6 +29,13 @@ namespace graupel
     /** Runs to the end and writes all files but report.html. Collective. */
     void run();
 
+    /** What came out, after run(). */
+    const Summary &
+    result() const
+    {
+      return summary;
+    }
+
   private:
     void balance_if_due();
     void start_fluid();

@@ -4,6 +4,8 @@
 #include <graupel/coupling/exchange.h>
 #include <graupel/dem/filling.h>
 #include <graupel/dem/settling.h>
+#include <graupel/fluid/manufactured_solution.h>
+#include <graupel/simulation/study_parameters.h>
 #include <graupel/simulation/sweep_parameters.h>
 
 namespace graupel
@@ -11,17 +13,19 @@ namespace graupel
   /** Everything that a parameter file says: read once, const ever after. */
   struct RunParameters
   {
-    Cylinder           cylinder;
-    MeshParameters     mesh;
-    DemParameters      dem;
-    FillingParameters  filling;
-    SettlingParameters settling;
-    FluidProperties    fluid;
-    DragParameters     drag;
-    CouplingParameters coupling;
-    FlowParameters     flow;
-    SweepParameters    sweep;
-    OutputParameters   output;
+    Cylinder               cylinder;
+    MeshParameters         mesh;
+    DemParameters          dem;
+    FillingParameters      filling;
+    SettlingParameters     settling;
+    FluidProperties        fluid;
+    DragParameters         drag;
+    CouplingParameters     coupling;
+    FlowParameters         flow;
+    SweepParameters        sweep;
+    OutputParameters       output;
+    StudyParameters        study;
+    ManufacturedParameters manufactured;
 
     /** Declares every section of the parameter file. */
     void declare(dealii::ParameterHandler &prm);

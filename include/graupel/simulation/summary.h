@@ -12,6 +12,7 @@ namespace graupel
   struct Summary
   {
     std::string             parameter_file;
+    unsigned int            cells = 0; // of the mesh, at the end
     BedResult               bed;
     std::vector<CaseResult> cases;
     FluidProperties         fluid;

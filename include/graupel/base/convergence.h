@@ -1,0 +1,50 @@
+#ifndef graupel_base_convergence_h
+#define graupel_base_convergence_h
+
+#include <optional>
+
+namespace graupel
+{
+  /** A quantity computed with a discretisation of the size @p size (any unit). */
+  struct Computation
+  {
+    double size;
+    double value;
+  };
+
+  /** What three computations tell about the discretisation error of the finest. */
+  struct GridConvergence
+  {
+    /** Observed order; absent where the values do not tell one [-]. */
+    std::optional<double> order;
+    /** Richardson's extrapolation to the size 0; absent without an order. */
+    std::optional<double> extrapolated;
+    /** |change from the second to the finest| over the finest [-]. */
+    double relative_change = 0.;
+    /** Grid-convergence index of the finest, with the factor of safety 1.25 [-]. */
+    std::optional<double> index;
+    /** Whether the two changes have opposite signs. */
+    bool oscillates = false;
+  };
+
+  /**
+   * Observed order p, Richardson's value and grid-convergence index of three
+   * computations of sizes that may have unequal ratios r21, r32 > 1:
+   *
+   *   |e32 / e21| = r21^p (r32^p - s) / (r21^p - s),  s = sign(e32 / e21),
+   *   value = (r21^p f1 - f2) / (r21^p - 1),  index = 1.25 |f1 - f2| / (|f1| (r21^p -
+   * 1)).
+   *
+   * Source: Celik et al. (2008), doi:10.1115/1.2960953. Throws std::invalid_argument
+   * unless sizes grow from @p fine to @p coarse.
+   */
+  GridConvergence grid_convergence(const Computation &fine,
+                                   const Computation &medium,
+                                   const Computation &coarse);
+
+  /** Order from two errors whose exact value 0 is known [-]; absent for zero errors. */
+  std::optional<double> observed_order(const Computation &fine,
+                                       const Computation &coarse);
+} // namespace graupel
+
+#endif

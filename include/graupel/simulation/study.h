@@ -1,0 +1,71 @@
+#ifndef graupel_simulation_study_h
+#define graupel_simulation_study_h
+
+#include <graupel/base/progress.h>
+#include <graupel/simulation/run_parameters.h>
+
+#include <functional>
+#include <optional>
+
+namespace graupel
+{
+  /** A number that a level of a study came to. */
+  struct Measurement
+  {
+    std::string quantity;
+    double      value;
+    /** Whether it is an error, that is whether the exact value is known to be 0. */
+    bool is_error = false;
+  };
+
+  /** What one level of a study computed. */
+  struct LevelResult
+  {
+    unsigned int cells = 0;
+    /** Representative: (volume / cells)^(1/3) [m]. */
+    double cell_size     = 0.;
+    double time_step     = 0.; // [s]
+    double filter_length = 0.; // [m]
+    /** The same quantities in the same order on every level. */
+    std::vector<Measurement> measurements;
+  };
+
+  /** Runs one level with these parameters, its files in its own directory. */
+  using RunLevel = std::function<LevelResult(const RunParameters &parameters,
+                                             const std::string   &directory)>;
+
+  /** One row of study.csv. */
+  struct StudyRow
+  {
+    unsigned int level; // from 1
+    LevelResult  result;
+    Measurement  measurement;
+    std::optional<double>
+      error_or_change; // error; or relative change from the last level
+    std::optional<double> observed_order, extrapolated, index;
+    bool                  oscillates = false;
+  };
+
+  /**
+   * The rows of a study whose levels have the sizes @p sizes (of what varies), from the
+   * coarsest to the finest: errors with the order between two levels, other quantities
+   * with order, Richardson's value and grid-convergence index of three
+   * (base/convergence.h).
+   */
+  std::vector<StudyRow> evaluate_study(const std::vector<LevelResult> &levels,
+                                       const std::vector<double>      &sizes);
+
+  /**
+   * A refinement study: runs the same parameters on a list of mesh sizes, filter
+   * lengths or time steps, in the subdirectories level-1, level-2, ... of @p directory,
+   * and writes study.csv there and a table to @p progress. A level that fails is told
+   * and left out. Without anything to vary it is level 1 alone. Collective.
+   */
+  void run_study(const RunParameters &parameters,
+                 const RunLevel      &run_level,
+                 const std::string   &directory,
+                 Progress            &progress,
+                 MPI_Comm             communicator);
+} // namespace graupel
+
+#endif

@@ -1,0 +1,31 @@
+#ifndef graupel_simulation_study_parameters_h
+#define graupel_simulation_study_parameters_h
+
+#include <deal.II/base/parameter_handler.h>
+
+#include <string>
+#include <vector>
+
+namespace graupel
+{
+  /** What a refinement study varies. */
+  struct StudyParameters
+  {
+    /** "none", "cell size", "filter length" or "time step". */
+    std::string vary = "none";
+    /** Its values, from the coarsest to the finest [m] or [s]. */
+    std::vector<double> values;
+
+    bool
+    is_wanted() const
+    {
+      return vary != "none";
+    }
+
+    /** Declares the section "Refinement study". */
+    void declare(dealii::ParameterHandler &prm);
+    void check() const;
+  };
+} // namespace graupel
+
+#endif

@@ -1,0 +1,43 @@
+#include <graupel/base/parameters.h>
+#include <graupel/simulation/study_parameters.h>
+
+#include <algorithm>
+#include <functional>
+
+namespace graupel
+{
+  void
+  StudyParameters::declare(dealii::ParameterHandler &prm)
+  {
+    prm.enter_subsection("Refinement study");
+    prm.add_parameter(
+      "vary",
+      vary,
+      "What a study varies: the run is repeated for each of the values below, in "
+      "directories of their own, and study.csv and the report tell how the results "
+      "converge. With the cell size the cell height is varied in proportion.",
+      dealii::Patterns::Selection("none|cell size|filter length|time step"));
+    prm.add_parameter(
+      "values",
+      values,
+      "The values, from the coarsest to the finest; three or more tell an "
+      "order [m or s].");
+    prm.leave_subsection();
+  }
+
+  void
+  StudyParameters::check() const
+  {
+    if (!is_wanted())
+      return;
+    require(values.size() >= 2,
+            "Refinement study/values",
+            "a study needs two values at least, and three to tell an order");
+    for (const double value : values)
+      require(value > 0., "Refinement study/values", "every value must be positive");
+    require(std::is_sorted(values.begin(), values.end(), std::greater<double>()) &&
+              std::adjacent_find(values.begin(), values.end()) == values.end(),
+            "Refinement study/values",
+            "the values must fall, from the coarsest to the finest");
+  }
+} // namespace graupel

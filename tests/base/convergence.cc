@@ -1,0 +1,54 @@
+#include <graupel/base/convergence.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+using namespace graupel;
+
+TEST(GridConvergence, FindsTheOrderOfAPowerLaw)
+{
+  // f(h) = f0 + c h^p has order p and limit f0, for any ratios of refinement.
+  for (const double p : {0.7, 1., 1.5, 2., 4.})
+    for (const double ratio : {1.3, 1.5, 2.})
+      for (const double c : {-0.4, 0.3})
+        {
+          const auto at = [&](const double h) -> Computation {
+            return {h, 7. + c * std::pow(h, p)};
+          };
+          const auto result = grid_convergence(at(0.1), at(0.15), at(0.15 * ratio));
+          ASSERT_TRUE(result.order && result.extrapolated && result.index);
+          EXPECT_NEAR(*result.order, p, 1e-6);
+          EXPECT_NEAR(*result.extrapolated, 7., 1e-7);
+          // The index is the true error, times the factor of safety, over the value.
+          const double error = std::abs(c) * std::pow(0.1, p) / at(0.1).value;
+          EXPECT_NEAR(*result.index, 1.25 * error, 1e-6 * error);
+          EXPECT_FALSE(result.oscillates);
+        }
+}
+
+TEST(GridConvergence, GivesTheWorkedExampleOfItsSource)
+{
+  // Celik et al. (2008), table 1, first column: 18000, 8000 and 4500 cells in two
+  // dimensions, r21 = 1.5, r32 = 1.333.
+  const auto result = grid_convergence({1., 6.063}, {1.5, 5.972}, {1.5 * 1.333, 5.863});
+  ASSERT_TRUE(result.order && result.extrapolated && result.index);
+  EXPECT_NEAR(*result.order, 1.53, 0.01);
+  EXPECT_NEAR(*result.extrapolated, 6.1685, 5e-4);
+  EXPECT_NEAR(result.relative_change, 0.015, 5e-4);
+  EXPECT_NEAR(*result.index, 0.022, 5e-4);
+}
+
+TEST(GridConvergence, KnowsOscillationAndDivergence)
+{
+  EXPECT_TRUE(grid_convergence({1., 1.}, {2., 1.1}, {4., 0.7}).oscillates);
+  EXPECT_FALSE(grid_convergence({1., 1.}, {2., 1.4}, {4., 1.5}).order);
+  EXPECT_FALSE(grid_convergence({1., 1.}, {2., 1.}, {4., 1.}).order);
+  EXPECT_THROW(grid_convergence({2., 1.}, {1., 1.}, {4., 1.}), std::invalid_argument);
+}
+
+TEST(ObservedOrder, OfErrors)
+{
+  EXPECT_NEAR(*observed_order({0.1, 0.02}, {0.2, 0.08}), 2., 1e-12);
+  EXPECT_FALSE(observed_order({0.1, 0.}, {0.2, 0.08}));
+}
