@@ -22,6 +22,7 @@ try:
         figures_settled,
         page,
         reference,
+        study,
         style,
     )
     from report_parts.run_output import read_run
@@ -66,6 +67,10 @@ def make_figures(run, paper, folder):
 
 def write_report(directory):
     """Reads the run in @p directory and writes its report; returns the exit status."""
+    if (directory / "study.csv").exists():
+        study.write_report(directory)
+        print(directory / "report.html")
+        return 0
     run = read_run(directory)
     if run.empty():
         print(f"report.py: {directory} holds no output of a run.", file=sys.stderr)

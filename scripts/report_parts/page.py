@@ -209,6 +209,11 @@ def page(run, paper, figures):
         "<footer>The numbers are in summary.json and the CSV files beside this page, all values of"
         " the parameters in parameters.prm, the figures as PNG in figures/.</footer>"
     )
+    return whole(title, body)
+
+
+def whole(title, body):
+    """A page of that title (escaped) from the lines of its body."""
     return (
         '<!DOCTYPE html>\n<html lang="en">\n<head>\n<meta charset="utf-8">\n'
         '<meta name="viewport" content="width=device-width, initial-scale=1">\n'

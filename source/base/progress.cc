@@ -45,16 +45,21 @@ namespace graupel
   }
 
   void
-  Progress::start_phase(const std::string &name, const double begin, const double end)
+  Progress::start_phase(const std::string &name,
+                        const double       begin,
+                        const double       end,
+                        const std::string &unit)
   {
     phase         = name;
+    this->unit    = unit;
     this->begin   = begin;
     this->end     = end;
     time          = begin;
     wall_at_begin = clock();
     last_rewrite  = wall_at_begin;
     last_plain    = wall_at_begin;
-    say(phase + formatted(": from %.4g s to %.4g s", begin, end));
+    say(phase +
+        formatted(": from %.4g %s to %.4g %s", begin, unit.c_str(), end, unit.c_str()));
   }
 
   void
@@ -84,7 +89,7 @@ namespace graupel
   void
   Progress::finish_phase()
   {
-    say(phase + formatted(": reached %.4g s", time) + " after " +
+    say(phase + formatted(": reached %.4g %s", time, unit.c_str()) + " after " +
         spoken_duration(clock() - wall_at_begin));
   }
 
@@ -105,13 +110,13 @@ namespace graupel
   Progress::line() const
   {
     const double wall = clock() - wall_at_begin;
-    std::string  text = phase + formatted("  %.4g of %.4g s", time, end);
+    std::string  text = phase + formatted("  %.4g of %.4g %s", time, end, unit.c_str());
     if (end > begin)
       text += formatted("  %.0f %%", 100. * (time - begin) / (end - begin));
     if (wall > 0. && time > begin)
       {
         const double rate = (time - begin) / wall;
-        text += formatted("  %.3g s/s  ", rate) +
+        text += formatted("  %.3g %s/s  ", rate, unit.c_str()) +
                 spoken_duration(std::max(0., end - time) / rate) + " left";
       }
     return text;

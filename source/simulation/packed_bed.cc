@@ -190,8 +190,10 @@ namespace graupel
     std::ostringstream name;
     name << "flow " << number << "/" << parameters.sweep.superficial_velocities.size()
          << ", V_s " << superficial_velocity << " m/s";
-    progress.start_phase(
-      name.str(), 0., is_still ? parameters.sweep.maximum_solves : duration);
+    if (is_still)
+      progress.start_phase(name.str(), 0., parameters.sweep.maximum_solves, "solves");
+    else
+      progress.start_phase(name.str(), 0., duration);
 
     steady = SteadyMonitor(
       parameters.sweep.steady_window, parameters.sweep.steady_tolerance, dem.weight());

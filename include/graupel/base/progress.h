@@ -33,8 +33,12 @@ namespace graupel
              std::ostream *log,
              const Clock  &clock = steady_seconds);
 
-    /** A phase begins that leads from @p begin to @p end, simulated times [s]. */
-    void start_phase(const std::string &name, const double begin, const double end);
+    /** A phase begins that leads from @p begin to @p end: simulated times [s], or
+     * counts of another @p unit. */
+    void start_phase(const std::string &name,
+                     const double       begin,
+                     const double       end,
+                     const std::string &unit = "s");
 
     /** The simulated time has come to @p time [s]. Cheap: may be called every step. */
     void update(const double time);
@@ -56,7 +60,7 @@ namespace graupel
     bool          rewrites = false;
     Clock         clock    = steady_seconds;
 
-    std::string phase;
+    std::string phase, unit;
     double      begin = 0., end = 0., time = 0.;
     double      wall_at_begin = 0.;
     double      last_rewrite = 0., last_plain = 0.;
