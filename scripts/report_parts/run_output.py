@@ -52,6 +52,9 @@ MONITOR_COLUMNS = (
     "momentum_imbalance",
     "solid_volume_error",
     "linear_iterations",
+    "cells",
+    "worst_node_imbalance",
+    "worst_cell_imbalance",
 )
 PROFILE_COLUMNS = ("z", "pressure", "void_fraction", "superficial_velocity", "ergun_pressure")
 RADIAL_COLUMNS = ("wall_distance", "void_fraction", "superficial_velocity")

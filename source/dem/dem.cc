@@ -18,6 +18,8 @@ namespace graupel
 
     // Ranks may differ by this much in their particles.
     constexpr double tolerated_imbalance = 0.1;
+    // Of a particle in the division of the mesh among the ranks.
+    constexpr unsigned int particle_weight = 1000;
 
     std::vector<std::uint32_t>
     same_rows(const unsigned int n)
@@ -182,15 +184,28 @@ namespace graupel
     if (most <= (1. + tolerated_imbalance) * mean)
       return false;
     synchronise();
-    const auto             old_ids         = arrays.id;
-    constexpr unsigned int particle_weight = 1000;
+    const auto old_ids = arrays.id;
     follow(old_ids,
            particle_store.repartition(
-             arrays,
-             contacts_of(),
-             std::max(1u, static_cast<unsigned int>(cell_share * particle_weight)),
-             particle_weight));
+             arrays, contacts_of(), cell_weight(cell_share), particle_weight));
     return true;
+  }
+
+  void
+  Dem::adapt_mesh(const double cell_share)
+  {
+    CostSheet::Scope scope(costs, CostSheet::mesh);
+    synchronise();
+    const auto old_ids = arrays.id;
+    follow(old_ids,
+           particle_store.adapt(
+             arrays, contacts_of(), cell_weight(cell_share), particle_weight));
+  }
+
+  unsigned int
+  Dem::cell_weight(const double cell_share) const
+  {
+    return std::max(1u, static_cast<unsigned int>(cell_share * particle_weight));
   }
 
   ParticleStore::ContactsOf

@@ -104,7 +104,7 @@ namespace graupel
   void
   FlowSolver::set_time(const double time)
   {
-    this->time = time;
+    now = time;
   }
 
   void
@@ -141,7 +141,7 @@ namespace graupel
   FlowSolver::step(const Medium &medium, const double step)
   {
     const CostSheet::Scope timing(costs, CostSheet::fluid);
-    const double           next_time = std::isfinite(step) ? time + step : time;
+    const double           next_time = std::isfinite(step) ? now + step : now;
     prepare_rates(medium, step);
     boundaries.update(next_time, superficial_velocity, density, medium.void_fraction);
     throughput = std::max(boundaries.throughput(), std::numeric_limits<double>::min());
@@ -178,7 +178,7 @@ namespace graupel
     alpha_older = alpha_old;
     alpha_old   = medium.void_fraction;
     last_step   = step;
-    time        = next_time;
+    now         = next_time;
     ++known_media;
     ++costs.fluid_steps;
     return report;

@@ -1,5 +1,6 @@
 #include <graupel/mesh/vessel_mesh.h>
 
+#include <deal.II/distributed/grid_refinement.h>
 #include <deal.II/grid/grid_generator.h>
 #include <deal.II/grid/grid_tools.h>
 #include <deal.II/grid/manifold_lib.h>
@@ -108,6 +109,7 @@ namespace graupel
     forest.copy_triangulation(solid);
     forest.set_manifold(curved, dealii::CylindricalManifold<3>(2));
     forest.refine_global(disc.refinements);
+    initial_level = disc.refinements;
   }
 
   void
@@ -122,6 +124,45 @@ namespace graupel
         return weight(dealii::Triangulation<3>::active_cell_iterator(cell));
       });
     forest.repartition();
+    connection.disconnect();
+  }
+
+  void
+  VesselMesh::clear_marks()
+  {
+    for (const auto &cell : forest.active_cell_iterators())
+      {
+        cell->clear_refine_flag();
+        cell->clear_coarsen_flag();
+      }
+  }
+
+  void
+  VesselMesh::mark_by(const dealii::Vector<float> &errors,
+                      const double                 refine,
+                      const double                 coarsen)
+  {
+    dealii::parallel::distributed::GridRefinement::refine_and_coarsen_fixed_number(
+      forest, errors, refine, coarsen);
+  }
+
+  bool
+  VesselMesh::prepare_adaption()
+  {
+    forest.prepare_coarsening_and_refinement();
+    unsigned int marks = 0;
+    for (const auto &cell : forest.active_cell_iterators())
+      if (cell->is_locally_owned() &&
+          (cell->refine_flag_set() || cell->coarsen_flag_set()))
+        ++marks;
+    return dealii::Utilities::MPI::sum(marks, communicator()) > 0;
+  }
+
+  void
+  VesselMesh::adapt(const CellWeight &weight)
+  {
+    const auto connection = forest.signals.weight.connect(weight);
+    forest.execute_coarsening_and_refinement();
     connection.disconnect();
   }
 

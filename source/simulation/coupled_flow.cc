@@ -1,9 +1,11 @@
 #include <graupel/simulation/coupled_flow.h>
 
+#include <deal.II/distributed/solution_transfer.h>
+
 namespace graupel
 {
   CoupledFlow::CoupledFlow(const RunParameters &parameters,
-                           const VesselMesh    &mesh,
+                           VesselMesh          &mesh,
                            Dem                 &dem,
                            CostSheet           &costs)
     : parameters(parameters)
@@ -17,6 +19,9 @@ namespace graupel
   void
   CoupledFlow::build()
   {
+    // What refers to the nodes goes before them.
+    particles_and_fluid.reset();
+    solver.reset();
     node_space.emplace(mesh);
     solver.emplace(parameters.flow,
                    parameters.fluid.density,
@@ -37,7 +42,63 @@ namespace graupel
   void
   CoupledFlow::set_superficial_velocity(const double velocity)
   {
+    superficial_velocity = velocity;
     solver->set_superficial_velocity(velocity);
+  }
+
+  void
+  CoupledFlow::look_at_bed()
+  {
+    dem.synchronise();
+    particles_and_fluid->update_void_fraction(dem.store(), dem.particles());
+  }
+
+  bool
+  CoupledFlow::adapt(const double cell_share)
+  {
+    if (!mark_cells(
+          parameters.adaption,
+          *node_space,
+          {exchange().medium().void_fraction, fluid().flux()[2], fluid().pressure()},
+          mesh))
+      return false;
+
+    NodalVectorField flux     = fluid().flux();
+    NodalVector      pressure = fluid().pressure();
+    const double     time     = fluid().time();
+    using Transfer = dealii::parallel::distributed::SolutionTransfer<3, NodalVector>;
+    auto transfer  = std::make_unique<Transfer>(node_space->dof_handler);
+    transfer->prepare_for_coarsening_and_refinement(
+      {&flux[0], &flux[1], &flux[2], &pressure});
+    // The solver refers to the old mesh; the transfer, to the old nodes.
+    particles_and_fluid.reset();
+    solver.reset();
+    dem.adapt_mesh(cell_share);
+    node_space->dof_handler.distribute_dofs(node_space->fe);
+
+    const NodalSpace           fresh(mesh);
+    std::array<NodalVector, 4> fields;
+    std::vector<NodalVector *> pointers;
+    for (NodalVector &field : fields)
+      {
+        fresh.initialize(field);
+        pointers.push_back(&field);
+      }
+    transfer->interpolate(pointers);
+    transfer.reset();
+    build();
+    for (NodalVector &field : fields)
+      {
+        node_space->hanging_nodes.distribute(field);
+        field.update_ghost_values();
+      }
+    const NodalVectorField new_flux{fields[0], fields[1], fields[2]};
+    particles_and_fluid->update_void_fraction(dem.store(), dem.particles());
+    particles_and_fluid->follow(new_flux, exchange().medium().void_fraction);
+    solver->set_superficial_velocity(superficial_velocity);
+    solver->set_time(time);
+    solver->continue_from(new_flux, fields[3], exchange().medium().void_fraction);
+    return true;
   }
 
   FlowSolver::Report

@@ -113,8 +113,36 @@ namespace graupel
   PackedBed::start_fluid()
   {
     const double substeps = parameters.sweep.time_step / dem.substep();
-    dem.balance(particle_substeps_of_cell / std::max(1., substeps));
+    cell_share            = particle_substeps_of_cell / std::max(1., substeps);
+    dem.balance(cell_share);
     coupled.emplace(parameters, mesh, dem, summary.costs);
+    for (unsigned int pass = 0; pass < parameters.adaption.initial_passes; ++pass)
+      {
+        coupled->look_at_bed();
+        adapt_mesh();
+      }
+    next_adaption = time + parameters.adaption.interval;
+  }
+
+  void
+  PackedBed::adapt_mesh()
+  {
+    const unsigned int before = mesh.triangulation().n_global_active_cells();
+    if (!coupled->adapt(cell_share))
+      return;
+    std::ostringstream text;
+    text << "mesh: " << before << " cells adapted to "
+         << mesh.triangulation().n_global_active_cells();
+    progress.say(text.str());
+  }
+
+  void
+  PackedBed::adapt_if_due()
+  {
+    if (parameters.adaption.interval <= 0. || time < next_adaption)
+      return;
+    adapt_mesh();
+    next_adaption = time + parameters.adaption.interval;
   }
 
   void
@@ -222,7 +250,9 @@ namespace graupel
     step_limit         = parameters.sweep.time_step;
     while (time - begin < duration * (1. - 1e-12))
       {
-        move_particles(step_fluid(next_step(duration - (time - begin))));
+        const double step = step_fluid(next_step(duration - (time - begin)));
+        adapt_if_due();
+        move_particles(step);
         record_monitor(number);
         write_fields_if_due();
         progress.update(time - begin);
@@ -311,12 +341,15 @@ namespace graupel
     row.fluid_force =
       coupled->exchange().total_force()[2] +
       parameters.fluid.density * parameters.dem.particles.gravity * dem.solid_volume();
-    row.kinetic_energy     = dem.mean_kinetic_energy();
-    row.maximum_speed      = dem.maximum_speed();
-    row.mass_imbalance     = last_report.mass_imbalance;
-    row.momentum_imbalance = coupled->exchange().momentum_imbalance();
-    row.solid_volume_error = coupled->exchange().solid_volume_error();
-    row.linear_iterations  = last_report.iterations;
+    row.kinetic_energy       = dem.mean_kinetic_energy();
+    row.maximum_speed        = dem.maximum_speed();
+    row.mass_imbalance       = last_report.mass_imbalance;
+    row.momentum_imbalance   = coupled->exchange().momentum_imbalance();
+    row.solid_volume_error   = coupled->exchange().solid_volume_error();
+    row.linear_iterations    = last_report.iterations;
+    row.cells                = mesh.triangulation().n_global_active_cells();
+    row.worst_node_imbalance = last_report.worst_node_imbalance;
+    row.worst_cell_imbalance = last_report.worst_cell_imbalance;
     return row;
   }
 

@@ -107,7 +107,8 @@ namespace graupel
         monitors
           << "time,phase,case,superficial_velocity,pressure_drop,bed_height,bottom_force,"
              "wall_force,fluid_force,kinetic_energy_per_particle,maximum_speed,"
-             "mass_imbalance,momentum_imbalance,solid_volume_error,linear_iterations\n";
+             "mass_imbalance,momentum_imbalance,solid_volume_error,linear_iterations,"
+             "cells,worst_node_imbalance,worst_cell_imbalance\n";
       }
   }
 
@@ -148,7 +149,9 @@ namespace graupel
              << row.bed_height << ',' << row.bottom_force << ',' << row.wall_force << ','
              << row.fluid_force << ',' << row.kinetic_energy << ',' << row.maximum_speed
              << ',' << row.mass_imbalance << ',' << row.momentum_imbalance << ','
-             << row.solid_volume_error << ',' << row.linear_iterations << std::endl;
+             << row.solid_volume_error << ',' << row.linear_iterations << ',' << row.cells
+             << ',' << row.worst_node_imbalance << ',' << row.worst_cell_imbalance
+             << std::endl;
   }
 
   void

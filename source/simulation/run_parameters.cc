@@ -18,6 +18,7 @@ namespace graupel
   {
     cylinder.declare(prm);
     mesh.declare(prm);
+    adaption.declare(prm);
     dem.declare(prm);
     filling.declare(prm);
     settling.declare(prm);
@@ -37,6 +38,7 @@ namespace graupel
     cylinder.check();
     dem.check(cylinder);
     mesh.check(cylinder);
+    adaption.check();
     filling.check(cylinder, dem);
     settling.check();
     fluid.check();

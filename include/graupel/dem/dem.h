@@ -62,6 +62,14 @@ namespace graupel
      */
     bool balance(const double cell_share);
 
+    /**
+     * Refines and coarsens the mesh as it is marked (see mark_cells) and divides it among
+     * the ranks as balance() does; particles, springs and forces go along. Everything
+     * else that knows the mesh is void then. Collective. Nothing of the motion changes by
+     * it.
+     */
+    void adapt_mesh(const double cell_share);
+
     /** Uses the friction of packing (true) or that of the flow; springs stay. */
     void use_packing_materials(const bool packing);
 
@@ -241,6 +249,7 @@ namespace graupel
     std::vector<std::uint32_t> departed_rows();
     void                       list_neighbors();
     ParticleStore::ContactsOf  contacts_of() const;
+    unsigned int               cell_weight(const double cell_share) const;
     void follow(const std::vector<std::int64_t> &old_ids, ParticleStore::Moves moves);
     bool has_external_forces() const;
 

@@ -81,6 +81,16 @@ namespace graupel
                       const unsigned int particle_weight);
 
     /**
+     * Refines and coarsens the mesh as marked, with the same weights, and finds the
+     * particles in it anew: deal.II, which hands them from parent to child by itself,
+     * may lose one on a face between two of them. Collective.
+     */
+    Moves adapt(ParticleArrays    &particles,
+                const ContactsOf  &contacts_of,
+                const unsigned int cell_weight,
+                const unsigned int particle_weight);
+
+    /**
      * Calls @p visit for each locally owned cell that holds particles, with the
      * first of its rows and the places of its particles in the unit cell, as of
      * the last migrate().

@@ -90,6 +90,13 @@ namespace graupel
     /** The time, for boundary conditions that depend on it [s]. */
     void set_time(const double time);
 
+    /** The time of flux() [s]. */
+    double
+    time() const
+    {
+      return now;
+    }
+
     /** Traction at the outlets beside the prescribed pressure, 0 without [Pa];
      * ghosts up to date. */
     void set_outlet_traction(const NodalVectorField &traction);
@@ -182,7 +189,7 @@ namespace graupel
 
     double           superficial_velocity = 0.;
     double           throughput           = 0.; // inflow, never 0 [m^3/s]
-    double           time                 = 0.; // of the flux [s]
+    double           now                  = 0.; // time of the flux [s]
     double           fastest              = 0.; // largest speed [m/s]
     NodalVectorField outlet_traction;
 

@@ -5,6 +5,7 @@
 
 #include <deal.II/distributed/tria.h>
 #include <deal.II/fe/mapping_q.h>
+#include <deal.II/lac/vector.h>
 
 #include <functional>
 
@@ -77,6 +78,38 @@ namespace graupel
         const dealii::parallel::distributed::Triangulation<3>::active_cell_iterator &)>
         &weight);
 
+    /** Level of all cells before any adaption [-]. */
+    int
+    base_level() const
+    {
+      return initial_level;
+    }
+
+    /** Takes all marks for refinement and coarsening away. */
+    void clear_marks();
+
+    /** Marks the parts @p refine and @p coarsen of all cells with the largest and the
+     * smallest @p errors. Collective. */
+    void mark_by(const dealii::Vector<float> &errors,
+                 const double                 refine,
+                 const double                 coarsen);
+
+    /** Makes the marks such as the mesh can follow; false if nothing will change.
+     * Collective. */
+    bool prepare_adaption();
+
+    using CellStatus = dealii::Triangulation<3>::CellStatus;
+    using CellWeight = std::function<unsigned int(
+      const dealii::Triangulation<3>::cell_iterator &cell, const CellStatus status)>;
+
+    /**
+     * Refines and coarsens as marked and divides the cells among the ranks by
+     * @p weight, which is asked of cells that stay, of cells that will be refined (for
+     * each child) and of parents whose children will be joined. Everything that
+     * knows the old mesh is void. Collective.
+     */
+    void adapt(const CellWeight &weight);
+
     /** The smallest distance between two vertices of one cell, over all ranks [m]. */
     double smallest_edge() const;
 
@@ -84,6 +117,7 @@ namespace graupel
     Cylinder                                        vessel;
     dealii::parallel::distributed::Triangulation<3> forest;
     dealii::MappingQ<3>                             quadratic;
+    int                                             initial_level = 0;
   };
 } // namespace graupel
 

@@ -30,6 +30,9 @@ namespace graupel
     double       momentum_imbalance   = 0.; // [-]
     double       solid_volume_error   = 0.; // [-]
     unsigned int linear_iterations    = 0;
+    unsigned int cells                = 0;  // of the mesh
+    double       worst_node_imbalance = 0.; // of the discrete continuity equation [-]
+    double       worst_cell_imbalance = 0.; // of a cell, over the inflow [-]
   };
 
   /** A flow case: means over the last quarter of its time, unless said otherwise. */

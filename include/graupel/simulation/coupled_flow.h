@@ -19,12 +19,15 @@ namespace graupel
   public:
     /** Still fluid around the particles; all references must outlive this object. */
     CoupledFlow(const RunParameters &parameters,
-                const VesselMesh    &mesh,
+                VesselMesh          &mesh,
                 Dem                 &dem,
                 CostSheet           &costs);
 
     /** The plug flow that enters at the bottom from now on [m/s]. */
     void set_superficial_velocity(const double velocity);
+
+    /** Deposits the void fraction from where the particles are, without a step. */
+    void look_at_bed();
 
     /**
      * Takes the fluid @p step [s] further past the particles where they are, and
@@ -39,6 +42,15 @@ namespace graupel
      * SolverFailure after "Flow/maximum solves" of them.
      */
     FlowSolver::Report find_steady_state(const std::function<void(const double)> &tell);
+
+    /**
+     * Refines and coarsens the mesh where the fields ask for it ("Mesh adaption") and
+     * carries everything over: fields are interpolated, the void fraction is deposited
+     * anew from the same particles, springs and forces stay with their particles. To be
+     * called after step(), before the particles move on. @p cell_share: cost of a cell
+     * in particles. False if nothing has changed. Collective.
+     */
+    bool adapt(const double cell_share);
 
     /** Pressure at the bottom minus pressure at the top [Pa]. */
     double pressure_drop() const;
@@ -65,9 +77,10 @@ namespace graupel
     void build();
 
     const RunParameters &parameters;
-    const VesselMesh    &mesh;
+    VesselMesh          &mesh;
     Dem                 &dem;
     CostSheet           &costs;
+    double               superficial_velocity = 0.; // [m/s]
 
     // Built anew with every new mesh or partition.
     std::optional<NodalSpace> node_space;

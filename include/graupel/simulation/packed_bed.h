@@ -48,6 +48,8 @@ namespace graupel
     void       run_steady(const unsigned int number);
     double     next_step(const double remaining) const;
     double     step_fluid(double step);
+    void       adapt_mesh();
+    void       adapt_if_due();
     void       move_particles(const double step);
     void       record_monitor(const unsigned int number);
     MonitorRow monitor(const std::string &phase) const;
@@ -69,8 +71,10 @@ namespace graupel
 
     double                  time = 0.; // simulated, since the run began [s]
     double                  next_output;
-    double                  next_balance = 0.;
-    double                  step_limit; // after a step that failed [s]
+    double                  next_balance  = 0.;
+    double                  next_adaption = 0.;
+    double                  cell_share    = 0.; // cost of a cell, in particles
+    double                  step_limit;         // after a step that failed [s]
     FlowSolver::Report      last_report;
     SteadyMonitor           steady;
     std::vector<MonitorRow> case_rows;

@@ -5,6 +5,7 @@
 #include <graupel/dem/filling.h>
 #include <graupel/dem/settling.h>
 #include <graupel/fluid/manufactured_solution.h>
+#include <graupel/mesh/adaption.h>
 #include <graupel/simulation/study_parameters.h>
 #include <graupel/simulation/sweep_parameters.h>
 
@@ -15,6 +16,7 @@ namespace graupel
   {
     Cylinder               cylinder;
     MeshParameters         mesh;
+    AdaptionParameters     adaption;
     DemParameters          dem;
     FillingParameters      filling;
     SettlingParameters     settling;
