@@ -14,9 +14,10 @@ namespace
   // or not: the transfer does not care.
   struct RandomPacking
   {
-    explicit RandomPacking(const double length = 2e-3)
+    // With @p local, one half of the bed's height is refined on one side.
+    explicit RandomPacking(const double length = 2e-3, const bool local = false)
       : mesh({0.025, 0.05}, {3.2e-3, 0.}, MPI_COMM_WORLD)
-      , nodes(mesh)
+      , nodes(local ? refined(mesh) : mesh)
       , dem(parameters(), mesh, costs)
       , filter(nodes, length)
       , transfer(nodes)
@@ -37,6 +38,18 @@ namespace
       transfer.update(dem.store());
       for (unsigned int i = 0; i < 3; ++i)
         nodes.initialize(field[i]);
+    }
+
+    static const VesselMesh &
+    refined(VesselMesh &mesh)
+    {
+      for (const auto &cell : mesh.triangulation().active_cell_iterators())
+        if (cell->is_locally_owned() && cell->center()[0] > 0. &&
+            cell->center()[2] > 0.01 && cell->center()[2] < 0.025)
+          cell->set_refine_flag();
+      mesh.prepare_adaption();
+      mesh.adapt([](const auto &, const auto) { return 1000u; });
+      return mesh;
     }
 
     static DemParameters
@@ -98,27 +111,35 @@ namespace
 
 TEST(Filter, KeepsConstants)
 {
-  RandomPacking packing;
-  NodalVector   constant, result;
-  packing.nodes.initialize(constant);
-  packing.nodes.initialize(result);
-  constant = 3.7;
-  packing.filter.smooth(result, constant);
-  result.add(-3.7);
-  EXPECT_LE(result.linfty_norm(), 1e-12);
+  for (const bool local : {false, true})
+    {
+      RandomPacking packing(2e-3, local);
+      NodalVector   constant, result;
+      packing.nodes.initialize(constant);
+      packing.nodes.initialize(result);
+      constant = 3.7;
+      packing.filter.smooth(result, constant);
+      result.add(-3.7);
+      EXPECT_LE(result.linfty_norm(), 1e-12);
+    }
 }
 
 TEST(Filter, IsSelfAdjointInTheNodesVolumes)
 {
-  RandomPacking     packing;
-  const NodalVector a = packing.noisy_field();
-  NodalVector       b(a), smooth_a(a), smooth_b(a);
-  for (unsigned int k = 0; k < b.locally_owned_size(); ++k)
-    b.local_element(k) = RandomPacking::noise(7. * k + 0.3);
-  packing.filter.smooth(smooth_a, a);
-  packing.filter.smooth(smooth_b, b);
-  const double left = packing.product(b, smooth_a), right = packing.product(a, smooth_b);
-  EXPECT_NEAR(left, right, 1e-12 * std::abs(left));
+  for (const bool local : {false, true})
+    {
+      RandomPacking     packing(2e-3, local);
+      const NodalVector a = packing.noisy_field();
+      NodalVector       b(a), smooth_a(a), smooth_b(a);
+      for (unsigned int k = 0; k < b.locally_owned_size(); ++k)
+        b.local_element(k) = RandomPacking::noise(7. * k + 0.3);
+      packing.nodes.hanging_nodes.distribute(b);
+      packing.filter.smooth(smooth_a, a);
+      packing.filter.smooth(smooth_b, b);
+      const double left  = packing.product(b, smooth_a),
+                   right = packing.product(a, smooth_b);
+      EXPECT_NEAR(left, right, 1e-12 * std::abs(left));
+    }
 }
 
 TEST(Filter, SpreadsByTheGaussianOfItsLength)
@@ -219,12 +240,12 @@ TEST(ParticleTransfer, IsAdjointWithTheFilter)
 namespace
 {
   void
-  keeps_its_ledger(const bool shares_pressure)
+  keeps_its_ledger(const bool shares_pressure, const bool local)
   {
     // Solid volume to 1e-12, momentum to 1e-10, with particles in motion; and the
     // bed as a whole feels the pressure drop: with slip at the wall and as much
     // momentum entering as leaving, the force on it is the drop times the area.
-    RandomPacking         packing;
+    RandomPacking         packing(2e-3, local);
     const FluidProperties fluid;
     for (unsigned int row = 0; row < packing.dem.particles().n_owned; ++row)
       for (unsigned int i = 0; i < 3; ++i)
@@ -260,10 +281,16 @@ namespace
 
 TEST(Exchange, KeepsItsLedgerOnARandomPacking)
 {
-  keeps_its_ledger(true);
+  keeps_its_ledger(true, false);
 }
 
 TEST(Exchange, KeepsItsLedgerInModelB)
 {
-  keeps_its_ledger(false);
+  keeps_its_ledger(false, false);
+}
+
+TEST(Exchange, KeepsItsLedgerWhereNodesHang)
+{
+  keeps_its_ledger(true, true);
+  keeps_its_ledger(false, true);
 }

@@ -81,7 +81,8 @@ namespace graupel
    *
    * with R = B / alpha and U the fastest speed in the vessel. The time step is
    * not in it, so that neither the steady state nor the observed order in time
-   * depend on the stabilisation; U instead of the local speed keeps tau from
+   * depend on the stabilisation, but as a limit: rho tau stays below 30 steps, for
+   * stability. U instead of the local speed keeps tau from
    * exceeding any useful time step where the fluid is slow, which would spoil the
    * linear system.
    * Source: Tezduyar & Osawa (2000), doi:10.1016/S0045-7825(00)00211-5, with the drag
