@@ -5,7 +5,8 @@ namespace graupel
   FlowCoefficients
   FlowSolver::coefficients() const
   {
-    return {density, viscosity, scheme.now, parameters.grad_div, fastest};
+    return {
+      density, viscosity, scheme.now, subscale_scheme.now, parameters.grad_div, fastest};
   }
 
   CellState
@@ -33,6 +34,35 @@ namespace graupel
     return state;
   }
 
+  dealii::Tensor<1, 3>
+  FlowSolver::subscale_history(const unsigned int point) const
+  {
+    return subscale_scheme.old * unresolved_now[point] +
+           subscale_scheme.older * unresolved_old[point];
+  }
+
+  void
+  FlowSolver::update_unresolved(const Medium &medium)
+  {
+    const FlowCoefficients             coefficients = this->coefficients();
+    std::array<double, nodes_per_cell> pressure;
+    for (unsigned int cell = 0; cell < space.n_cells(); ++cell)
+      {
+        const CellState state = gather(cell, medium);
+        for (unsigned int a = 0; a < nodes_per_cell; ++a)
+          pressure[a] = pressure_now.local_element(space.cell_nodes[cell][a]);
+        for (unsigned int q = 0; q < space.points_per_cell; ++q)
+          {
+            const unsigned int number = cell * space.points_per_cell + q;
+            const auto         known  = subscale_history(number);
+            unresolved_old[number]    = unresolved_now[number];
+            unresolved_now[number] =
+              unresolved_flux(coefficients, state, space.shapes[number], known, pressure);
+          }
+      }
+    ++known_unresolved;
+  }
+
   void
   FlowSolver::assemble(const Medium &medium)
   {
@@ -47,6 +77,7 @@ namespace graupel
           add_flow_point(coefficients,
                          state,
                          space.shapes[cell * space.points_per_cell + q],
+                         subscale_history(cell * space.points_per_cell + q),
                          cell_matrix,
                          cell_rhs);
         distribute(cell);

@@ -6,10 +6,6 @@ namespace graupel
   {
     using dealii::Tensor;
 
-    // Of rho tau and the time step: at 200 the stabilisation, which sees no acceleration
-    // at the nodes of an inlet, makes pressure oscillate from step to step.
-    constexpr double largest_time_ratio = 30.;
-
     // The fields of the cell at the point.
     struct PointState
     {
@@ -47,6 +43,20 @@ namespace graupel
       result.source += result.drag_source - coefficients.density * result.history;
       return result;
     }
+
+    // Acceleration and convection of the flux at node b.
+    double
+    inertia(const FlowCoefficients &coefficients,
+            const CellState        &state,
+            const ShapePoint       &point,
+            const PointState       &here,
+            const unsigned int      b)
+    {
+      return coefficients.density *
+             (coefficients.rate * point.value[b] +
+              (here.flux * point.gradient[b] + here.flux_divergence * point.value[b]) /
+                state.void_fraction[b]);
+    }
   } // namespace
 
   double
@@ -56,15 +66,16 @@ namespace graupel
   {
     const double convection = 2. * coefficients.density * coefficients.speed / size;
     const double diffusion  = 12. * coefficients.viscosity / (size * size);
-    const double inertia = coefficients.density * coefficients.rate / largest_time_ratio;
-    return 1. / std::sqrt(resistance * resistance + inertia * inertia +
-                          convection * convection + diffusion * diffusion);
+    return 1. / (coefficients.density * coefficients.subscale_rate +
+                 std::sqrt(resistance * resistance + convection * convection +
+                           diffusion * diffusion));
   }
 
   void
   add_flow_point(const FlowCoefficients     &coefficients,
                  const CellState            &state,
                  const ShapePoint           &point,
+                 const Tensor<1, 3>         &subscale_history,
                  dealii::FullMatrix<double> &matrix,
                  dealii::Vector<double>     &rhs)
   {
@@ -83,16 +94,14 @@ namespace graupel
     // Where the drag is put on the nodes, it enters the residual only.
     const double       drag_here      = state.drag_on_nodes ? 0. : 1.;
     const Tensor<1, 3> galerkin_force = here.source - (1. - drag_here) * here.drag_source;
+    const Tensor<1, 3> residual_source = here.source - rho * subscale_history;
     for (unsigned int b = 0; b < nodes_per_cell; ++b)
       {
-        const double along = here.flux * point.gradient[b];
-        const double psi   = point.value[b];
-        galerkin[b] =
-          rho * (coefficients.rate * psi +
-                 (along + here.flux_divergence * psi) / state.void_fraction[b]);
-        strong[b] = galerkin[b] + state.resistance[b] * psi;
-        galerkin[b] += drag_here * state.resistance[b] * psi;
-        upwind[b] = tau * rho * along / alpha;
+        galerkin[b]       = inertia(coefficients, state, point, here, b);
+        const double drag = state.resistance[b] * point.value[b];
+        strong[b]         = galerkin[b] + drag;
+        galerkin[b] += drag_here * drag;
+        upwind[b] = tau * rho * (here.flux * point.gradient[b]) / alpha;
       }
 
     for (unsigned int a = 0; a < nodes_per_cell; ++a)
@@ -126,10 +135,27 @@ namespace graupel
 
         for (unsigned int i = 0; i < 3; ++i)
           rhs[row + i] +=
-            point.weight * (psi_a * galerkin_force[i] + upwind[a] * here.source[i] -
+            point.weight * (psi_a * galerkin_force[i] + upwind[a] * residual_source[i] -
                             gamma * grad_a[i] * here.void_fraction_rate);
-        rhs[row + 3] += point.weight * (tau * (grad_a * here.source) -
+        rhs[row + 3] += point.weight * (tau * (grad_a * residual_source) -
                                         psi_a * state.void_fraction_rate[a]);
       }
+  }
+
+  Tensor<1, 3>
+  unresolved_flux(const FlowCoefficients                   &coefficients,
+                  const CellState                          &state,
+                  const ShapePoint                         &point,
+                  const Tensor<1, 3>                       &subscale_history,
+                  const std::array<double, nodes_per_cell> &pressure)
+  {
+    const PointState here     = interpolate(coefficients, state, point);
+    Tensor<1, 3>     residual = coefficients.density * subscale_history - here.source;
+    for (unsigned int b = 0; b < nodes_per_cell; ++b)
+      residual += (inertia(coefficients, state, point, here, b) +
+                   state.resistance[b] * point.value[b]) *
+                    state.flux[b] +
+                  here.pressure_share * pressure[b] * point.gradient[b];
+    return -stabilization_time(coefficients, here.resistance, state.size) * residual;
   }
 } // namespace graupel

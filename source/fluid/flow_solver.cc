@@ -76,6 +76,8 @@ namespace graupel
         nodes.initialize(*vector);
         vector->update_ghost_values();
       }
+    unresolved_now.resize(space.shapes.size());
+    unresolved_old.resize(space.shapes.size());
     prepare_matrices();
   }
 
@@ -118,7 +120,10 @@ namespace graupel
   {
     const bool second = parameters.time_scheme == "bdf2" && known_media >= 2 &&
                         std::isfinite(step) && std::isfinite(last_step);
-    scheme = second ? bdf2(step, last_step) : bdf1(step);
+    scheme          = second ? bdf2(step, last_step) : bdf1(step);
+    subscale_scheme = known_unresolved == 0   ? TimeScheme()
+                      : known_unresolved == 1 ? bdf1(step)
+                                              : scheme;
     if (known_media == 0)
       alpha_old = medium.void_fraction;
     alpha_rate.equ(scheme.now, medium.void_fraction);
@@ -175,6 +180,7 @@ namespace graupel
 
     flux_old = flux_now;
     publish();
+    update_unresolved(medium);
     alpha_older = alpha_old;
     alpha_old   = medium.void_fraction;
     last_step   = step;
@@ -226,8 +232,9 @@ namespace graupel
     pressure_now = pressure;
     pressure_now.update_ghost_values();
     restore_solution();
-    alpha_old   = void_fraction;
-    known_media = 1;
+    alpha_old        = void_fraction;
+    known_media      = 1;
+    known_unresolved = 0;
   }
 
   void

@@ -34,11 +34,11 @@ namespace
 
   const std::vector<Case> cases{
     {"alpha constant, no drag", "0.6", "0"},
-    {"alpha constant, drag", "0.6", "10*(1+0.3*x)"},
+    {"alpha constant, drag", "0.6", "2*(1+0.3*x)"},
     {"alpha(x), no drag", "0.6+0.2*sin(2*x)*cos(2*z)", "0"},
-    {"alpha(x), drag", "0.6+0.2*sin(2*x)*cos(2*z)", "10*(1+0.3*x)"},
+    {"alpha(x), drag", "0.6+0.2*sin(2*x)*cos(2*z)", "2*(1+0.3*x)"},
     {"alpha(x,t), no drag", "0.6+0.2*sin(2*x+t)*cos(2*z)", "0"},
-    {"alpha(x,t), drag", "0.6+0.2*sin(2*x+t)*cos(2*z)", "10*(1+0.3*x+0.3*t)"}};
+    {"alpha(x,t), drag", "0.6+0.2*sin(2*x+t)*cos(2*z)", "2*(1+0.3*x+0.3*t)"}};
 } // namespace
 
 namespace
@@ -125,19 +125,21 @@ TEST(ManufacturedSolution, ConvergesInSpace)
 TEST(ManufacturedSolution, ConvergesInTime)
 {
   // On one mesh, so that the error in space is common to all: the changes from one
-  // step size to its half fall with the order of the scheme.
+  // step size to its half fall with the order of the scheme, once the step is below the
+  // time scale of the subscales.
   for (const std::string scheme : {"bdf1", "bdf2"})
     for (const Case &flow : cases)
       {
         ManufacturedParameters given = swirling_flow(flow.void_fraction, flow.drag);
         given.duration               = 1.;
-        FlowParameters parameters;
+        const unsigned int steps     = scheme == "bdf1" ? 64 : 128;
+        FlowParameters     parameters;
         parameters.time_scheme      = scheme;
         parameters.linear_tolerance = 1e-11;
         dealii::ConvergenceTable               table;
         std::vector<std::unique_ptr<Computed>> runs;
         std::vector<std::pair<double, double>> changes;
-        for (const unsigned int n : {16, 32, 64, 128})
+        for (const unsigned int n : {steps, 2 * steps, 4 * steps})
           {
             runs.push_back(
               std::make_unique<Computed>(given, parameters, 4, given.duration / n));
@@ -158,9 +160,9 @@ TEST(ManufacturedSolution, ConvergesInTime)
             quantity, "steps", dealii::ConvergenceTable::reduction_rate_log2, 1);
         print(scheme + ", " + flow.name, table);
         const double order = scheme == "bdf1" ? 1. : 2.;
-        EXPECT_NEAR(std::log2(changes[1].first / changes[2].first), order, 0.15)
+        EXPECT_NEAR(std::log2(changes[0].first / changes[1].first), order, 0.15)
           << scheme << ", " << flow.name;
-        EXPECT_NEAR(std::log2(changes[1].second / changes[2].second), order, 0.15)
+        EXPECT_NEAR(std::log2(changes[0].second / changes[1].second), order, 0.15)
           << scheme << ", " << flow.name;
       }
 }

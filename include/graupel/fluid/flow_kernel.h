@@ -34,6 +34,8 @@ namespace graupel
     double viscosity;
     /** Weight of the new flux in dq/dt [1/s]. */
     double rate;
+    /** The same of the unresolved flux [1/s]. */
+    double subscale_rate;
     /** Factor of the grad-div term [-]. */
     double grad_div;
     /** The fastest interstitial speed in the vessel [m/s]. */
@@ -75,19 +77,15 @@ namespace graupel
   };
 
   /**
-   * Stabilisation time scale over density [m^3 s/kg],
+   * Time scale of the subscales over density [m^3 s/kg],
    *
-   *   tau = [R^2 + (2 rho U / h)^2 + (12 mu / h^2)^2]^(-1/2),
+   *   1/tau = rho rate + [R^2 + (2 rho U / h)^2 + (12 mu / h^2)^2]^(1/2),
    *
-   * with R = B / alpha and U the fastest speed in the vessel. The time step is
-   * not in it, so that neither the steady state nor the observed order in time
-   * depend on the stabilisation, but as a limit: rho tau stays below 30 steps, for
-   * stability. U instead of the local speed keeps tau from
-   * exceeding any useful time step where the fluid is slow, which would spoil the
-   * linear system.
+   * with R = B / alpha and U the fastest speed in the vessel. U instead of the local
+   * speed keeps tau from exceeding any useful time step where the fluid is slow, which
+   * would spoil the linear system.
    * Source: Tezduyar & Osawa (2000), doi:10.1016/S0045-7825(00)00211-5, with the drag
-   * as reaction and without the time step: Bochev, Gunzburger & Lehoucq (2007),
-   * doi:10.1002/fld.1295.
+   * as reaction.
    */
   double stabilization_time(const FlowCoefficients &coefficients,
                             const double            resistance,
@@ -96,12 +94,30 @@ namespace graupel
   /**
    * Adds one quadrature point to the cell's linear system. Unknown number
    * 4 a + c is component c (three of q, then p) at node a.
+   *
+   * The stabilisation follows the flux q' that the mesh does not resolve in time,
+   *
+   *   rho dq'/dt + q'/tau_0 = -residual of the momentum equation,
+   *
+   * with tau_0 the time scale at rate 0, and @p subscale_history the known part of dq'/dt
+   * [m/s^2]: the steady state has no time step in it, and small steps stay stable.
+   * Source: Codina, Principe, Guasch & Badia (2007), doi:10.1016/j.cma.2006.07.015.
    */
   void add_flow_point(const FlowCoefficients     &coefficients,
                       const CellState            &state,
                       const ShapePoint           &point,
+                      const dealii::Tensor<1, 3> &subscale_history,
                       dealii::FullMatrix<double> &matrix,
                       dealii::Vector<double>     &rhs);
+
+  /** q' at the end of a step, whose flux @p state has and whose nodal pressures are
+   * @p pressure [Pa] [m/s]. */
+  dealii::Tensor<1, 3> unresolved_flux(
+    const FlowCoefficients                   &coefficients,
+    const CellState                          &state,
+    const ShapePoint                         &point,
+    const dealii::Tensor<1, 3>               &subscale_history,
+    const std::array<double, nodes_per_cell> &pressure);
 } // namespace graupel
 
 #endif

@@ -156,19 +156,21 @@ namespace graupel
     double courant_rate() const;
 
   private:
-    void             prepare_matrices();
-    void             prepare_rates(const Medium &medium, const double step);
-    CellState        gather(const unsigned int cell, const Medium &medium) const;
-    FlowCoefficients coefficients() const;
-    double           fastest_speed(const NodalVector &void_fraction) const;
-    void             assemble(const Medium &medium);
-    void             assemble_inlets();
-    void             assemble_outlets(const Medium &medium);
-    void             distribute(const unsigned int cell);
-    void             add_nodal_drag(const Medium &medium);
-    void             assemble_schur(const Medium &medium);
-    unsigned int     solve();
-    unsigned int     solve_to(const double tolerance);
+    void                 prepare_matrices();
+    void                 prepare_rates(const Medium &medium, const double step);
+    CellState            gather(const unsigned int cell, const Medium &medium) const;
+    FlowCoefficients     coefficients() const;
+    double               fastest_speed(const NodalVector &void_fraction) const;
+    dealii::Tensor<1, 3> subscale_history(const unsigned int point) const;
+    void                 update_unresolved(const Medium &medium);
+    void                 assemble(const Medium &medium);
+    void                 assemble_inlets();
+    void                 assemble_outlets(const Medium &medium);
+    void                 distribute(const unsigned int cell);
+    void                 add_nodal_drag(const Medium &medium);
+    void                 assemble_schur(const Medium &medium);
+    unsigned int         solve();
+    unsigned int         solve_to(const double tolerance);
     // Iterations, or invalid_unsigned_int after @p maximum of them.
     unsigned int iterate(const double tolerance, const unsigned int maximum);
     void         refresh_preconditioner();
@@ -212,6 +214,12 @@ namespace graupel
     NodalVector      pressure_now;
     NodalVector      alpha_old, alpha_older;
     NodalVector      alpha_rate; // with the source of volume
+
+    // The flux that the mesh does not resolve, at the quadrature points. Where it is not
+    // known from a step before, its rate is taken as 0.
+    TimeScheme                        subscale_scheme;
+    unsigned int                      known_unresolved = 0;
+    std::vector<dealii::Tensor<1, 3>> unresolved_now, unresolved_old;
   };
 } // namespace graupel
 
