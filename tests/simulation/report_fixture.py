@@ -103,6 +103,7 @@ def write_run(directory, scale=1.0, vessel=VESSEL, steps=60):
     write_csv(directory / "cases.csv", list(cases[0]), rows)
     phases = [("fill", 0), ("settle", 0), ("flow", 1), ("flow", 2)]
     numbers = [0.3, 400.0, HEIGHT, 0.1, 0.2, 0.2, 1e-9, 1e-3, 1e-11, 1e-13, 0.0, 12]
+    numbers += [2496, 1e-12, 1e-4]
     rows = [[step * 1e-3, *phases[4 * step // steps], *numbers] for step in range(steps)]
     write_csv(directory / "monitors.csv", run_output.MONITOR_COLUMNS, rows)
     for number, case in enumerate(cases, start=1):
