@@ -80,7 +80,7 @@ namespace graupel
                          subscale_history(cell * space.points_per_cell + q),
                          cell_matrix,
                          cell_rhs);
-        distribute(cell);
+        scatter->add(cell, cell_matrix, cell_rhs, rhs);
       }
 
     assemble_inlets();
@@ -106,7 +106,7 @@ namespace graupel
           for (unsigned int a = 0; a < nodes_per_cell; ++a)
             cell_rhs[unknowns_per_node * a + 3] -=
               point.weight * point.value[a] * normal_flux;
-          distribute(point.cell);
+          scatter->add(point.cell, cell_matrix, cell_rhs, rhs);
         }
   }
 
@@ -150,19 +150,8 @@ namespace graupel
                     }
                 }
             }
-          distribute(point.cell);
+          scatter->add(point.cell, cell_matrix, cell_rhs, rhs);
         }
-  }
-
-  void
-  FlowSolver::distribute(const unsigned int cell)
-  {
-    const auto &unknowns = space.cell_unknowns[cell];
-    boundaries.constraints().distribute_local_to_global(cell_matrix, unknowns, matrix);
-    boundaries.constraints().distribute_local_to_global(
-      cell_rhs, unknowns, rhs, cell_matrix);
-    cell_matrix = 0.;
-    cell_rhs    = 0.;
   }
 
   void
@@ -219,10 +208,9 @@ namespace graupel
             resistance += state.resistance[a] / nodes_per_cell;
             speed += state.flux[a].norm() / state.void_fraction[a] / nodes_per_cell;
           }
-        const double tau      = stabilization_time(coefficients, resistance, state.size);
         const double reaction = density * (scheme.now + 2. * speed / state.size) +
                                 resistance + viscosity / (state.size * state.size);
-        conductivity[cell] = alpha * (1. / reaction + tau);
+        conductivity[cell] = alpha / reaction;
         for (unsigned int q = 0; q < space.points_per_cell; ++q)
           {
             const ShapePoint &point = space.shapes[cell * space.points_per_cell + q];

@@ -90,6 +90,7 @@ namespace graupel
       space.dof_handler, pattern, boundaries.constraints(), false);
     pattern.compress();
     matrix.reinit(pattern);
+    scatter = std::make_unique<CellScatter>(space, boundaries.constraints(), matrix);
     schur.reinit(nodes.coupling_pattern);
     solution.reinit(BlockVector(space.owned, space.relevant, nodes.mesh.communicator()));
     rhs.reinit(solution);

@@ -10,9 +10,11 @@ namespace graupel
   using BlockVector = dealii::LinearAlgebra::distributed::BlockVector<double>;
 
   /**
-   * LDU preconditioner of the coupled system [A G; D C] of flux and pressure:
-   * ILU(0) for A, and one algebraic multigrid cycle on an approximation of the
-   * Schur complement C - D A^-1 G.
+   * Block triangular preconditioner [A G; 0 S] of the coupled system [A G; D C] of
+   * flux and pressure: ILU(0) for A, and one algebraic multigrid cycle on an
+   * approximation S of the Schur complement C - D A^-1 G.
+   * Source: Elman, Silvester & Wathen, Finite Elements and Fast Iterative Solvers (2014),
+   * ch. 9.
    */
   class BlockPreconditioner
   {
@@ -27,10 +29,10 @@ namespace graupel
     void vmult(BlockVector &dst, const BlockVector &src) const;
 
   private:
-    const dealii::TrilinosWrappers::BlockSparseMatrix *system = nullptr;
-    dealii::TrilinosWrappers::PreconditionILU          flux_inverse;
-    dealii::TrilinosWrappers::PreconditionAMG          schur_inverse;
-    mutable BlockVector                                scratch;
+    const dealii::TrilinosWrappers::BlockSparseMatrix         *system = nullptr;
+    dealii::TrilinosWrappers::PreconditionILU                  flux_inverse;
+    dealii::TrilinosWrappers::PreconditionAMG                  schur_inverse;
+    mutable dealii::LinearAlgebra::distributed::Vector<double> scratch;
   };
 } // namespace graupel
 

@@ -2,7 +2,7 @@
 #define graupel_fluid_flow_solver_h
 
 #include <graupel/base/cost_sheet.h>
-#include <graupel/fluid/block_preconditioner.h>
+#include <graupel/fluid/cell_scatter.h>
 #include <graupel/fluid/flow_boundaries.h>
 #include <graupel/fluid/flow_parameters.h>
 #include <graupel/fluid/time_scheme.h>
@@ -166,7 +166,6 @@ namespace graupel
     void                 assemble(const Medium &medium);
     void                 assemble_inlets();
     void                 assemble_outlets(const Medium &medium);
-    void                 distribute(const unsigned int cell);
     void                 add_nodal_drag(const Medium &medium);
     void                 assemble_schur(const Medium &medium);
     unsigned int         solve();
@@ -197,6 +196,7 @@ namespace graupel
 
     dealii::TrilinosWrappers::BlockSparseMatrix matrix;
     dealii::TrilinosWrappers::SparseMatrix      schur;
+    std::unique_ptr<CellScatter>                scatter;
     BlockPreconditioner                         preconditioner;
     unsigned int                                fresh_iterations    = 0;
     unsigned int                                last_iterations     = 0;
