@@ -184,8 +184,7 @@ namespace graupel
   void
   FlowSolver::assemble_schur(const Medium &medium)
   {
-    schur                                                     = 0.;
-    const FlowCoefficients                       coefficients = this->coefficients();
+    schur = 0.;
     dealii::FullMatrix<double>                   local(nodes_per_cell, nodes_per_cell);
     std::vector<dealii::types::global_dof_index> indices(nodes_per_cell);
     std::vector<double>                          conductivity(space.n_cells());

@@ -70,6 +70,9 @@ namespace graupel
           outlet_ids.push_back(boundary.id);
       }
     find_nodes();
+    for (Boundary &boundary : boundaries)
+      if (boundary.condition.kind == BoundaryCondition::parabolic)
+        measure_parabola(boundary);
     make_template();
   }
 
@@ -121,6 +124,25 @@ namespace graupel
       boundary.inward = -normal / normal.norm();
   }
 
+  double
+  FlowBoundaries::Boundary::parabola(const dealii::Point<3> &x) const
+  {
+    const double squared_radius = area / dealii::numbers::PI;
+    return std::max(0., 1. - (x - center).norm_square() / squared_radius);
+  }
+
+  void
+  FlowBoundaries::measure_parabola(Boundary &boundary) const
+  {
+    NodalVector profile;
+    space.nodes.initialize(profile);
+    for (const Node &node : boundary.nodes)
+      profile.local_element(node.local) = boundary.parabola(node.position);
+    space.nodes.hanging_nodes.distribute(profile);
+    profile.update_ghost_values();
+    boundary.parabola_mean = mean(boundary, profile);
+  }
+
   void
   FlowBoundaries::make_template()
   {
@@ -146,14 +168,13 @@ namespace graupel
   }
 
   double
-  FlowBoundaries::mean_void_fraction(const Boundary    &boundary,
-                                     const NodalVector &void_fraction) const
+  FlowBoundaries::mean(const Boundary &boundary, const NodalVector &field) const
   {
     double sum = 0.;
     for (const auto &point : space.boundary(boundary.id))
       for (unsigned int a = 0; a < nodes_per_cell; ++a)
         sum += point.weight * point.value[a] *
-               void_fraction.local_element(space.cell_nodes[point.cell][a]);
+               field.local_element(space.cell_nodes[point.cell][a]);
     return dealii::Utilities::MPI::sum(sum, space.nodes.mesh.communicator()) /
            boundary.area;
   }
@@ -168,8 +189,7 @@ namespace graupel
     const auto   kind    = boundary.condition.kind;
     const bool   by_rate = kind == BoundaryCondition::mass_flow_rate;
     const double mean_alpha =
-      weigh_inlets || by_rate ? mean_void_fraction(boundary, void_fraction) : 1.;
-    const double squared_radius = boundary.area / dealii::numbers::PI;
+      weigh_inlets || by_rate ? mean(boundary, void_fraction) : 1.;
     for (const Node &node : boundary.nodes)
       {
         dealii::Tensor<1, 3> q = velocity * boundary.inward;
@@ -177,9 +197,7 @@ namespace graupel
           for (unsigned int i = 0; i < 3; ++i)
             q[i] = function->value(node.position, i);
         else if (kind == BoundaryCondition::parabolic)
-          q *= std::max(
-            0.,
-            2. * (1. - (node.position - boundary.center).norm_square() / squared_radius));
+          q *= boundary.parabola(node.position) / boundary.parabola_mean;
         else if (by_rate)
           q = function->value(node.position) * mean_alpha / (density * boundary.area) *
               boundary.inward;

@@ -91,13 +91,16 @@ namespace graupel
       double               area = 0.;
       dealii::Point<3>     center;
       dealii::Tensor<1, 3> inward; // mean unit normal
+      // Poiseuille's profile, and its mean as the mesh has it [-].
+      double parabola(const dealii::Point<3> &x) const;
+      double parabola_mean = 1.;
     };
 
     void   find_nodes();
     void   measure(Boundary &boundary) const;
     void   make_template();
-    double mean_void_fraction(const Boundary    &boundary,
-                              const NodalVector &void_fraction) const;
+    void   measure_parabola(Boundary &boundary) const;
+    double mean(const Boundary &boundary, const NodalVector &field) const;
     void   prescribe_flux(const Boundary                        &boundary,
                           const dealii::FunctionParser<3> *const function,
                           const double                           velocity,
