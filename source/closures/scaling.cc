@@ -15,7 +15,7 @@ namespace graupel
     // Keeps Cd finite in an expression at rest.
     constexpr double least_reynolds = 1e-6;
 
-    // A filtered void fraction may overshoot 1 by a little; the laws bear it.
+    // A filtered void fraction may overshoot 1 by a little; it counts as 1.
     constexpr double greatest_void_fraction = 1.01;
 
     std::string
@@ -207,7 +207,8 @@ namespace graupel
     if (!(alpha > 0. && alpha <= greatest_void_fraction))
       throw std::runtime_error("No drag law holds at " + at(alpha, re) +
                                ": the void fraction must lie in (0, 1]");
-    const double result = beta_per_drag_number * size * drag_number(alpha, re);
+    const double result =
+      beta_per_drag_number * size * drag_number(std::min(alpha, 1.), re);
     if (!(result >= 0. && std::isfinite(result)))
       throw std::runtime_error("The drag law " + drag_law->name +
                                " gives the coefficient " + std::to_string(result) +

@@ -100,9 +100,9 @@ TEST(Scaling, ScaleOneChangesNothing)
         const double plain = drag(law.name, "none", 1.).beta(0.4, slip);
         EXPECT_EQ(drag(law.name, "exact", 1.).beta(0.4, slip), plain);
         // The default expression, too: at s = 1 it is Cd. At rest its floor of
-        // Re = 1e-6 adds 7/3e-6 to a drag number of some 100.
+        // Re = 1e-6 adds at most Dallavalle's 2 0.63 / 4.8 (0.4 Re)^1/2 of the drag.
         EXPECT_NEAR(
-          drag(law.name, "expression", 1.).beta(0.4, slip), plain, 1e-5 * plain);
+          drag(law.name, "expression", 1.).beta(0.4, slip), plain, 2e-4 * plain);
       }
 }
 
@@ -171,8 +171,9 @@ TEST(Scaling, EveryFormIsFiniteAtRest)
           const double at_rest = any.beta(0.4, 0.);
           EXPECT_TRUE(std::isfinite(at_rest)) << law.name << ' ' << form;
           EXPECT_GT(at_rest, 0.) << law.name << ' ' << form;
-          // No jump on leaving rest: 1e-8 m/s is Re = 1e-6 or a little more.
-          EXPECT_NEAR(any.beta(0.4, 4e-8), at_rest, 1e-4 * at_rest)
+          // No jump on leaving rest: Re is at most 1.6e-5, and no law grows faster than
+          // Dallavalle's root of it.
+          EXPECT_NEAR(any.beta(0.4, 4e-8), at_rest, 1e-3 * at_rest)
             << law.name << ' ' << form;
         }
 }

@@ -53,6 +53,97 @@ namespace graupel
    */
   double gidaspow_drag_number(const double alpha, const double reynolds);
 
+  /**
+   * Gidaspow's law without the jump: (1 - w) Ergun + w Wen-Yu with
+   * w = arctan(262.5 (alpha - 0.8)) / pi + 1/2. In a packed bed w is 0.003.
+   * Source: Lu & Gidaspow (2003), doi:10.1016/S0009-2509(03)00345-9.
+   */
+  double blended_gidaspow_drag_number(const double alpha, const double reynolds);
+
+  /**
+   * Di Felice's law, C_d = C_0(x) alpha^(2 - chi) [-], x = alpha Re, with
+   * C_0 = (0.63 + 4.8 x^-1/2)^2 (Dallavalle) and
+   * chi = 3.7 - 0.65 exp(-(1.5 - log10 x)^2 / 2). The drag beside the common pressure
+   * gradient: it is in balance with alpha times the weight less the buoyancy.
+   * Source: Di Felice (1994), doi:10.1016/0301-9322(94)90011-6.
+   */
+  double di_felice_drag_number(const double alpha, const double reynolds);
+
+  /**
+   * Rong, Dong and Yu's law from lattice-Boltzmann simulations of packed beds, as Di
+   * Felice's with
+   * chi = 2.65 (alpha + 1) - (5.3 - 3.5 alpha) alpha^2 exp(-(1.5 - log10 x)^2 / 2).
+   * Source: Rong, Dong & Yu (2013), doi:10.1016/j.ces.2013.05.036.
+   */
+  double rong_drag_number(const double alpha, const double reynolds);
+
+  /**
+   * Hill, Koch and Ladd's law from lattice-Boltzmann simulations,
+   * N = 24 alpha^2 (F_0 + F_3 x / 2), x = alpha Re, from
+   * beta = 18 mu alpha^2 phi / d^2 (F_0 + F_3 x / 2), phi = 1 - alpha, with
+   *
+   *   F_0 = (1 + 3 (phi/2)^1/2 + 135/64 phi ln phi + 16.14 phi) /
+   *         (1 + 0.681 phi - 8.48 phi^2 + 8.16 phi^3) for phi < 0.4, else
+   *         10 phi / alpha^3,
+   *   F_3 = 0.0673 + 0.212 phi + 0.0232 / alpha^5.
+   *
+   * Source: Hill, Koch & Ladd (2001), doi:10.1017/S0022112001005936; the form of
+   * Benyahia, Syamlal & O'Brien (2006), doi:10.1016/j.powtec.2005.12.014, without its
+   * small range of very low Reynolds numbers.
+   */
+  double koch_hill_drag_number(const double alpha, const double reynolds);
+
+  /**
+   * Beetstra, van der Hoef and Kuipers' law from lattice-Boltzmann simulations,
+   * N = 24 alpha F, x = alpha Re, phi = 1 - alpha,
+   *
+   *   F = 10 phi / alpha^2 + alpha^2 (1 + 1.5 phi^1/2)
+   *       + 0.413 x / (24 alpha^2) (1/alpha + 3 phi alpha + 8.4 x^-0.343)
+   *         / (1 + 10^(3 phi) x^-(1 + 4 phi)/2),
+   *
+   * the drag over 3 pi mu d alpha |u - v|, without the pressure gradient's part.
+   * Source: Beetstra, van der Hoef & Kuipers (2007), doi:10.1002/aic.11065.
+   */
+  double beetstra_drag_number(const double alpha, const double reynolds);
+
+  /**
+   * Tang et al.'s law from immersed-boundary simulations, N = 24 alpha F as Beetstra's,
+   *
+   *   F = 10 phi / alpha^2 + alpha^2 (1 + 1.5 phi^1/2)
+   *       + x (0.11 phi (1 + phi) - 0.00456 / alpha^4
+   *            + (0.169 alpha + 0.0644 / alpha^4) x^-0.343).
+   *
+   * Source: Tang, Peters, Kuipers, Kriebitzsch & van der Hoef (2015),
+   * doi:10.1002/aic.14645.
+   */
+  double tang_drag_number(const double alpha, const double reynolds);
+
+  /**
+   * Gibilaro et al.'s law, N = 4/3 (17.3 / alpha + 0.336 Re) alpha^-1.8, from the
+   * pressure gradient (17.3 / x + 0.336) rho V^2 / d (1 - alpha) alpha^-4.8, x = alpha
+   * Re. Source: Gibilaro, Di Felice, Waldram & Foscolo (1985),
+   * doi:10.1016/0009-2509(85)80116-0.
+   */
+  double gibilaro_drag_number(const double alpha, const double reynolds);
+
+  /**
+   * The rule of the German nuclear safety standards commission for pebble beds,
+   * N = 2/3 / alpha (320 phi + 6 phi^0.1 x^0.9), from the pressure gradient
+   * psi phi / alpha^3 rho V^2 / (2 d), psi = 320 phi / x + 6 (phi / x)^0.1. For packed
+   * beds; no drag on a single sphere.
+   * Source: KTA 3102.3, Reactor core design of high-temperature gas-cooled reactors,
+   * part 3: loss of pressure through friction in pebble bed cores (1981).
+   */
+  double kta_drag_number(const double alpha, const double reynolds);
+
+  /**
+   * Erdim, Akgiray and Demir's law for packed beds,
+   * N = 4/3 / alpha (160 phi + 2.81 phi^0.096 x^0.904), from the pressure gradient
+   * (160 + 2.81 (x / phi)^0.904) mu V phi^2 / (d^2 alpha^3). No drag on a single sphere.
+   * Source: Erdim, Akgiray & Demir (2015), doi:10.1016/j.powtec.2015.06.017.
+   */
+  double erdim_drag_number(const double alpha, const double reynolds);
+
   /** What the program knows of a law. */
   struct DragLaw
   {
