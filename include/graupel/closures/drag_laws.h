@@ -56,7 +56,7 @@ namespace graupel
   /**
    * Gidaspow's law without the jump: (1 - w) Ergun + w Wen-Yu with
    * w = arctan(262.5 (alpha - 0.8)) / pi + 1/2. In a packed bed w is 0.003.
-   * Source: Lu & Gidaspow (2003), doi:10.1016/S0009-2509(03)00345-9.
+   * Source: Lu & Gidaspow, Chem. Eng. Sci. 58 (2003) 3777.
    */
   double blended_gidaspow_drag_number(const double alpha, const double reynolds);
 
