@@ -302,6 +302,18 @@ namespace graupel
         return entry.path == path;
       })->pattern;
 
+    // A path is meant relative to the file that names it ("FILE:LINE").
+    std::string fitted = value;
+    if (pattern.rfind("[FileName", 0) == 0 && !value.empty())
+      {
+        const auto                  colon = origin.rfind(':');
+        const std::filesystem::path folder =
+          colon == std::string::npos
+            ? ""
+            : std::filesystem::path(origin.substr(0, colon)).parent_path();
+        fitted = std::filesystem::absolute(folder / value).lexically_normal().string();
+      }
+
     // deal.II would take a negative number for an unsigned one, modulo 2^32.
     bool fits = !(pattern == "[Integer]" && value.find('-') != std::string::npos);
     for (const std::string &section : sections)
@@ -309,7 +321,7 @@ namespace graupel
     try
       {
         if (fits)
-          handler.set(name, value);
+          handler.set(name, fitted);
       }
     catch (const std::exception &)
       {

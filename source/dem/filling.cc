@@ -255,7 +255,7 @@ namespace graupel
                         const double       solid_fraction,
                         const bool         fallen_from_top)
   {
-    RandomPlaces places(dem.cylinder(), lower, upper, radius, gap);
+    RandomPlaces places(dem.cylinder(), dem.vessel(), lower, upper, radius, gap);
     add_obstacles(places, lower - 2. * (1. + gap) * radius);
     const double most_solid =
       solid_fraction * dem.cylinder().cross_section() * (upper - lower);

@@ -4,12 +4,14 @@
 
 namespace graupel
 {
-  RandomPlaces::RandomPlaces(const Cylinder &cylinder,
-                             const double    lower,
-                             const double    upper,
-                             const double    largest_radius,
-                             const double    gap)
-    : tube(cylinder.diameter / 2.)
+  RandomPlaces::RandomPlaces(const Cylinder          &cylinder,
+                             const std::vector<Wall> &walls,
+                             const double             lower,
+                             const double             upper,
+                             const double             largest_radius,
+                             const double             gap)
+    : walls(walls)
+    , tube(cylinder.diameter / 2.)
     , lower(lower)
     , upper(upper)
     , gap(gap)
@@ -64,6 +66,15 @@ namespace graupel
   }
 
   bool
+  RandomPlaces::is_inside(const dealii::Point<3> &center, const double room) const
+  {
+    for (std::size_t w = top_wall + 1; w < walls.size(); ++w)
+      if (walls[w].is_near(center, room))
+        return false;
+    return true;
+  }
+
+  bool
   RandomPlaces::place(const double                   radius,
                       const unsigned int             n_tries,
                       const std::function<double()> &random,
@@ -79,7 +90,7 @@ namespace graupel
         const double angle = 2. * dealii::numbers::PI * random();
         const double z     = lower + room + (upper - lower - 2. * room) * random();
         center = dealii::Point<3>(rho * std::cos(angle), rho * std::sin(angle), z);
-        if (is_free(center, radius))
+        if (is_inside(center, room) && is_free(center, radius))
           {
             add_obstacle(center, radius);
             return true;

@@ -145,4 +145,34 @@ namespace graupel
       }
     return result;
   }
+
+  std::map<dealii::types::boundary_id, BoundaryCondition>
+  BoundaryParameters::by_id(
+    const std::map<std::string, dealii::types::boundary_id> &boundaries) const
+  {
+    const auto  by_name = conditions();
+    std::string names;
+    for (const auto &entry : boundaries)
+      names += (names.empty() ? "" : ", ") + entry.first;
+    for (const auto &entry : by_name)
+      require(boundaries.count(entry.first) > 0 || entry.first == "bottom" ||
+                entry.first == "top" || entry.first == "wall",
+              "Boundary conditions/others",
+              "the mesh has no boundary \"" + entry.first + "\"; it has " + names);
+
+    std::map<dealii::types::boundary_id, BoundaryCondition> result;
+    bool                                                    has_outlet = false;
+    for (const auto &[name, id] : boundaries)
+      {
+        const auto own = by_name.find(name);
+        result[id]     = own == by_name.end() ? by_name.at("wall") : own->second;
+        has_outlet     = has_outlet || result[id].kind == BoundaryCondition::pressure;
+      }
+    require(has_outlet,
+            "Boundary conditions/top",
+            "no boundary of the mesh has a pressure, so that the fluid cannot leave; its "
+            "boundaries are " +
+              names);
+    return result;
+  }
 } // namespace graupel

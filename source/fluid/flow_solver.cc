@@ -14,20 +14,11 @@ namespace graupel
         component.update_ghost_values();
     }
 
-    std::map<dealii::types::boundary_id, BoundaryCondition>
-    by_id(const BoundaryParameters &parameters)
-    {
-      const auto by_name = parameters.conditions();
-      return {{VesselMesh::bottom, by_name.at("bottom")},
-              {VesselMesh::top, by_name.at("top")},
-              {VesselMesh::wall, by_name.at("wall")}};
-    }
-
     std::vector<dealii::types::boundary_id>
-    outlets(const BoundaryParameters &parameters)
+    outlets(const BoundaryParameters &parameters, const VesselMesh &mesh)
     {
       std::vector<dealii::types::boundary_id> result;
-      for (const auto &[id, condition] : by_id(parameters))
+      for (const auto &[id, condition] : parameters.by_id(mesh.boundaries()))
         if (condition.kind == BoundaryCondition::pressure)
           result.push_back(id);
       return result;
@@ -59,8 +50,10 @@ namespace graupel
     , viscosity(viscosity)
     , nodes(nodes)
     , costs(costs)
-    , space(nodes, outlets(parameters.boundaries))
-    , boundaries(by_id(parameters.boundaries), parameters.boundaries.weigh_inlets, space)
+    , space(nodes, outlets(parameters.boundaries, nodes.mesh))
+    , boundaries(parameters.boundaries.by_id(nodes.mesh.boundaries()),
+                 parameters.boundaries.weigh_inlets,
+                 space)
     , cell_matrix(unknowns_per_node * nodes_per_cell, unknowns_per_node * nodes_per_cell)
     , cell_rhs(unknowns_per_node * nodes_per_cell)
   {

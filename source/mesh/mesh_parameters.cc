@@ -1,6 +1,8 @@
 #include <graupel/base/parameters.h>
 #include <graupel/mesh/vessel_mesh.h>
 
+#include <fstream>
+
 namespace graupel
 {
   void
@@ -8,10 +10,22 @@ namespace graupel
   {
     prm.enter_subsection("Mesh");
     prm.add_parameter(
+      "file",
+      file,
+      "A mesh of hexahedra from Gmsh (.msh, text, in metres) for a vessel inside the "
+      "cylinder of section Geometry, standing on z = 0 and as high as that; empty: the "
+      "cylinder itself. Its physical surfaces name the boundaries: bottom, top, wall, "
+      "others. Faces named wall whose corners lie on the cylinder follow it. Particles "
+      "meet the cylinder and what section Walls adds, not the mesh. Relative to the "
+      "parameter file.",
+      dealii::Patterns::FileName());
+    prm.add_parameter(
       "cell size",
       cell_size,
       "Edge length of the cells across the vessel that is aimed at; the mesh "
-      "takes the nearest size that divides the cylinder evenly [m].");
+      "takes the nearest size that divides the cylinder evenly, or that halving the "
+      "cells "
+      "of a file reaches [m].");
     prm.add_parameter(
       "cell height",
       cell_height,
@@ -28,6 +42,9 @@ namespace graupel
             "Mesh/cell size",
             "cells larger than half of the cylinder cannot carry a flow; choose at most "
             "half of Geometry/diameter and Geometry/height");
+    require(file.empty() || std::ifstream(file).good(),
+            "Mesh/file",
+            "the file cannot be read; is the path right?");
     require(cell_height >= 0. && cell_height <= cylinder.height / 2.,
             "Mesh/cell height",
             "must lie between 0 (as Mesh/cell size) and half of Geometry/height");

@@ -1,3 +1,5 @@
+#include <graupel/base/parameters.h>
+#include <graupel/mesh/gmsh_file.h>
 #include <graupel/mesh/vessel_mesh.h>
 
 #include <deal.II/distributed/grid_refinement.h>
@@ -7,11 +9,16 @@
 #include <deal.II/grid/tria_accessor.h>
 #include <deal.II/grid/tria_iterator.h>
 
+#include <sstream>
+
 namespace graupel
 {
   namespace
   {
     constexpr dealii::types::manifold_id curved = 0;
+
+    // Of the vessel's sizes, within which a vertex lies where it is meant to.
+    constexpr double vertex_tolerance = 1e-4;
 
     // A disc of a few cells, and how many of them lie across its diameter; after
     // extrusion their cells stay compact, where GridGenerator::cylinder has
@@ -87,6 +94,56 @@ namespace graupel
           if (face->at_boundary() && face->boundary_id() == VesselMesh::wall)
             face->set_all_manifold_ids(curved);
     }
+
+    void
+    check_vessel(const Cylinder &cylinder, const dealii::Triangulation<3> &solid)
+    {
+      double lowest = std::numeric_limits<double>::max(), highest = -lowest, widest = 0.;
+      for (const auto &vertex : solid.get_vertices())
+        {
+          lowest  = std::min(lowest, vertex[2]);
+          highest = std::max(highest, vertex[2]);
+          widest  = std::max(widest, std::hypot(vertex[0], vertex[1]));
+        }
+      std::ostringstream text;
+      text << "the mesh reaches from z = " << lowest << " to " << highest << " m and "
+           << widest << " m away from the axis, but ";
+      const double tolerance = vertex_tolerance * cylinder.height;
+      if (std::abs(lowest) > tolerance || std::abs(highest - cylinder.height) > tolerance)
+        {
+          text << "the vessel reaches from 0 to Geometry/height = " << cylinder.height
+               << " m; are both in metres?";
+          throw InputError("Mesh/file", text.str());
+        }
+      if (widest > cylinder.diameter / 2. * (1. + vertex_tolerance))
+        {
+          text << "the cylinder around the particles has a radius of "
+               << cylinder.diameter / 2.
+               << " m; choose a Geometry/diameter that holds the mesh";
+          throw InputError("Mesh/file", text.str());
+        }
+    }
+
+    // Parts of the cylinder, among the faces named "wall".
+    void
+    curve_wall(const Cylinder &cylinder, dealii::Triangulation<3> &solid)
+    {
+      const double radius = cylinder.diameter / 2.;
+      solid.set_all_manifold_ids(dealii::numbers::flat_manifold_id);
+      for (const auto &cell : solid.active_cell_iterators())
+        for (const auto &face : cell->face_iterators())
+          {
+            if (!face->at_boundary() || face->boundary_id() != VesselMesh::wall)
+              continue;
+            bool on_cylinder = true;
+            for (const unsigned int v : face->vertex_indices())
+              on_cylinder = on_cylinder &&
+                            std::abs(std::hypot(face->vertex(v)[0], face->vertex(v)[1]) -
+                                     radius) < vertex_tolerance * radius;
+            if (on_cylinder)
+              face->set_all_manifold_ids(curved);
+          }
+    }
   } // namespace
 
   VesselMesh::VesselMesh(const Cylinder       &cylinder,
@@ -98,6 +155,12 @@ namespace graupel
              dealii::parallel::distributed::Triangulation<3>::default_setting)
     , quadratic(2)
   {
+    if (!parameters.file.empty())
+      {
+        make_from_file(parameters.file, parameters.cell_size);
+        return;
+      }
+    boundary_ids          = {{"wall", wall}, {"bottom", bottom}, {"top", top}};
     const CoarseDisc disc = disc_for(cylinder.diameter, parameters.cell_size);
     const double     height =
       parameters.cell_height > 0. ? parameters.cell_height : parameters.cell_size;
@@ -106,10 +169,29 @@ namespace graupel
 
     dealii::Triangulation<3> solid;
     make_coarse_cylinder(cylinder, disc, layers, solid);
-    forest.copy_triangulation(solid);
+    forest.copy_triangulation(solid); // takes the manifolds of solid, which has none
     forest.set_manifold(curved, dealii::CylindricalManifold<3>(2));
     forest.refine_global(disc.refinements);
     initial_level = disc.refinements;
+  }
+
+  void
+  VesselMesh::make_from_file(const std::string &file, const double cell_size)
+  {
+    dealii::Triangulation<3> solid;
+    boundary_ids = read_gmsh(file, solid);
+    check_vessel(vessel, solid);
+    curve_wall(vessel, solid);
+    forest.copy_triangulation(solid); // takes the manifolds of solid, which has none
+    forest.set_manifold(curved, dealii::CylindricalManifold<3>(2));
+    // To the nearest size that halving reaches.
+    const double volume = dealii::GridTools::volume(forest, quadratic);
+    while (std::cbrt(volume / forest.n_global_active_cells()) > std::sqrt(2.) * cell_size)
+      {
+        forest.refine_global();
+        ++initial_level;
+      }
+    vessel.section = dealii::GridTools::volume(forest, quadratic) / vessel.height;
   }
 
   void

@@ -79,6 +79,9 @@ namespace graupel
     , steady(parameters.sweep.steady_window, parameters.sweep.steady_tolerance, 1.)
     , started(Progress::steady_seconds())
   {
+    // What the mesh's own boundaries cannot have is said before the bed is made.
+    if (!parameters.sweep.superficial_velocities.empty())
+      parameters.flow.boundaries.by_id(mesh.boundaries());
     summary.parameter_file = parameter_file;
     summary.fluid          = parameters.fluid;
   }
@@ -398,7 +401,7 @@ namespace graupel
     const double lower = 0.25 * bed.height, upper = 0.75 * bed.height;
     const double middle_void_fraction =
       1. - observables.solid_volume_between(lower, upper) /
-             (parameters.cylinder.cross_section() * (upper - lower));
+             (mesh.cylinder().cross_section() * (upper - lower));
     const double gradient =
       (pressure_at(axial, lower) - pressure_at(axial, upper)) / (upper - lower);
     result.gradient_deviation_from_ergun =
@@ -416,7 +419,7 @@ namespace graupel
                               diameter,
                               velocity,
                               result.ergun_pressure_drop,
-                              parameters.cylinder.cross_section());
+                              mesh.cylinder().cross_section());
 
     files.write_axial(number, axial, result);
     files.write_radial(number, radial, parameters.cylinder.diameter / 2.);
@@ -431,9 +434,10 @@ namespace graupel
   void
   PackedBed::write_summary_file()
   {
-    summary.wall_seconds = Progress::steady_seconds() - started;
-    summary.cpu_seconds  = cpu_seconds();
-    summary.cells        = mesh.triangulation().n_global_active_cells();
+    summary.wall_seconds  = Progress::steady_seconds() - started;
+    summary.cpu_seconds   = cpu_seconds();
+    summary.cells         = mesh.triangulation().n_global_active_cells();
+    summary.cross_section = mesh.cylinder().cross_section();
     write_summary(files.path("summary.json"), summary, communicator);
   }
 } // namespace graupel

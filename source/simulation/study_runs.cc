@@ -20,7 +20,7 @@ namespace graupel
     LevelResult result;
     result.cells     = summary.cells;
     result.cell_size = representative_size(
-      parameters.cylinder.cross_section() * parameters.cylinder.height, summary.cells);
+      summary.cross_section * parameters.cylinder.height, summary.cells);
     result.time_step     = parameters.sweep.time_step;
     result.filter_length = parameters.filter_length();
     for (const CaseResult &flow : summary.cases)
@@ -63,7 +63,7 @@ namespace graupel
     LevelResult result;
     result.cells     = mesh.triangulation().n_global_active_cells();
     result.cell_size = representative_size(
-      parameters.cylinder.cross_section() * parameters.cylinder.height, result.cells);
+      mesh.cylinder().cross_section() * parameters.cylinder.height, result.cells);
     result.time_step =
       parameters.manufactured.duration > 0. ? parameters.sweep.time_step : 0.;
     result.measurements = {{"error of the flux [-]", errors.flux, true},

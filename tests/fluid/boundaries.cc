@@ -162,3 +162,46 @@ TEST(Boundaries, ConditionsThatCannotBeAreRefusedByName)
   parameters.others = "side plug";
   EXPECT_EQ(message(parameters), "Boundary conditions/others");
 }
+
+// The duct of prm/vessels: what enters through the bottom and through the side named in
+// the file leaves at the top; without the side's inlet it is a plain Darcy column.
+TEST(Boundaries, AFilesBoundariesHaveTheirConditionsByName)
+{
+  const double     drag = 500., alpha = 0.5, velocity = 0.2, side = 0.016;
+  const VesselMesh mesh({0.022628, 0.06},
+                        {4e-3, 0., GRAUPEL_SOURCE_DIR "/prm/vessels/side-inlet.msh"},
+                        MPI_COMM_WORLD);
+  const NodalSpace nodes(mesh);
+  Medium           medium(nodes);
+  medium.void_fraction = alpha;
+  medium.drag          = drag;
+  medium.void_fraction.update_ghost_values();
+  medium.drag.update_ghost_values();
+  CostSheet  costs;
+  const auto run = [&](const std::string &others) {
+    FlowParameters parameters;
+    parameters.boundaries.others = others;
+    FlowSolver flow(parameters, air_density, air_viscosity, nodes, costs);
+    flow.set_superficial_velocity(velocity);
+    for (unsigned int n = 0; n < 10; ++n)
+      flow.step(medium, 0.01);
+    const double inflow = flow.inflow();
+    EXPECT_NEAR(flow.outflow(), inflow, 1e-8 * inflow);
+    return std::make_pair(inflow,
+                          flow.mean_pressure(VesselMesh::bottom) -
+                            flow.mean_pressure(VesselMesh::top));
+  };
+  const auto [plain, drop] = run("");
+  EXPECT_NEAR(plain, velocity * side * side, 1e-12);
+  EXPECT_NEAR(drop, drag * velocity / (alpha * alpha) * 0.06, 1e-6);
+
+  // The nodes that bottom and side share belong to one of them, and those on the rim of
+  // the inlet to it, so that it is a cell's half higher.
+  const auto [both, more] = run("side = velocity -V; 0; 0");
+  say() << "side inlet: " << both << " of " << velocity * (side * side + side * 0.012)
+        << " m^3/s\n";
+  EXPECT_GT(more, drop);
+  EXPECT_NEAR(both, velocity * (side * side + side * 0.012), 0.1 * both);
+
+  EXPECT_THROW(run("sied = plug"), InputError);
+}

@@ -2,7 +2,7 @@
 #define graupel_dem_random_places_h
 
 #include <graupel/dem/particle_arrays.h>
-#include <graupel/mesh/cylinder.h>
+#include <graupel/dem/walls.h>
 
 #include <functional>
 #include <vector>
@@ -10,22 +10,25 @@
 namespace graupel
 {
   /**
-   * Random places for spheres between two heights of a cylinder, each at a distance
-   * of all others and of the wall (random sequential addition).
+   * Random places for spheres between two heights of a vessel, each at a distance
+   * of all others and of the walls (random sequential addition).
    */
   class RandomPlaces
   {
   public:
     /**
+     * @p walls of the vessel beside the cylinder must outlive this object; only those
+     * after VesselWall are asked.
      * @p lower and @p upper bound the spheres, not their centers [m];
      * @p largest_radius of all spheres, obstacles included [m]; @p gap: distance
      * kept, over a sphere's radius [-].
      */
-    RandomPlaces(const Cylinder &cylinder,
-                 const double    lower,
-                 const double    upper,
-                 const double    largest_radius,
-                 const double    gap);
+    RandomPlaces(const Cylinder          &cylinder,
+                 const std::vector<Wall> &walls,
+                 const double             lower,
+                 const double             upper,
+                 const double             largest_radius,
+                 const double             gap);
 
     /** A sphere that is there already. */
     void add_obstacle(const dealii::Point<3> &center, const double radius);
@@ -50,6 +53,10 @@ namespace graupel
     std::size_t        number(const int x, const int y, const int z) const;
     bool               is_free(const dealii::Point<3> &center, const double radius) const;
 
+    // Whether the further walls are farther away than @p room and the point inside them.
+    bool is_inside(const dealii::Point<3> &center, const double room) const;
+
+    const std::vector<Wall>         &walls;
     const double                     tube;
     const double                     lower, upper;
     const double                     gap;

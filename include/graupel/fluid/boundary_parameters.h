@@ -2,6 +2,7 @@
 #define graupel_fluid_boundary_parameters_h
 
 #include <deal.II/base/parameter_handler.h>
+#include <deal.II/base/types.h>
 
 #include <map>
 #include <string>
@@ -65,6 +66,14 @@ namespace graupel
 
     /** By name. */
     std::map<std::string, BoundaryCondition> conditions() const;
+
+    /**
+     * By id, for the boundaries of a mesh by name: what has no condition of its own is as
+     * the wall. Throws InputError for the condition of a boundary that the mesh does not
+     * have, and where the fluid cannot leave.
+     */
+    std::map<dealii::types::boundary_id, BoundaryCondition> by_id(
+      const std::map<std::string, dealii::types::boundary_id> &boundaries) const;
   };
 } // namespace graupel
 

@@ -8,16 +8,20 @@
 #include <deal.II/lac/vector.h>
 
 #include <functional>
+#include <map>
+#include <string>
 
 namespace graupel
 {
-  /** How finely the cylinder is cut into hexahedra. */
+  /** How the vessel is cut into hexahedra. */
   struct MeshParameters
   {
     /** Aimed-at edge length of a cell across the vessel [m]. */
     double cell_size = 3.2e-3;
     /** Aimed-at height of a cell [m]; 0: as across. */
     double cell_height = 0.;
+    /** A Gmsh file; empty: the cylinder is meshed. */
+    std::string file = "";
 
     void declare(dealii::ParameterHandler &prm);
     void check(const Cylinder &cylinder) const;
@@ -25,7 +29,9 @@ namespace graupel
 
   /**
    * A distributed mesh of hexahedra (a p4est forest) that fills the cylinder
-   * exactly up to the order of the mapping.
+   * exactly up to the order of the mapping, or a vessel inside the cylinder whose coarse
+   * mesh comes from a Gmsh file (see read_gmsh()). Faces of a file that are named "wall"
+   * and whose corners lie on the cylinder follow it; all others are flat.
    *
    * The mapping has degree 2: degree 1 would cut 2.5 % of the volume off at
    * the wall, and lose particles that lie there.
@@ -33,7 +39,7 @@ namespace graupel
   class VesselMesh
   {
   public:
-    /** Boundary ids. */
+    /** Boundary ids; further boundaries of a file have larger ones. */
     enum Boundary : dealii::types::boundary_id
     {
       wall   = 0,
@@ -41,9 +47,19 @@ namespace graupel
       top    = 2
     };
 
+    /** Throws InputError("Mesh/file", ...) for a file that cannot be used. */
     VesselMesh(const Cylinder       &cylinder,
                const MeshParameters &parameters,
                MPI_Comm              communicator);
+
+    using BoundaryIds = std::map<std::string, dealii::types::boundary_id>;
+
+    /** Boundary ids by name. */
+    const BoundaryIds &
+    boundaries() const
+    {
+      return boundary_ids;
+    }
 
     const dealii::parallel::distributed::Triangulation<3> &
     triangulation() const
@@ -57,6 +73,7 @@ namespace graupel
       return quadratic;
     }
 
+    /** The particles' vessel, with the mean cross-section of the mesh. */
     const Cylinder &
     cylinder() const
     {
@@ -114,7 +131,10 @@ namespace graupel
     double smallest_edge() const;
 
   private:
+    void make_from_file(const std::string &file, const double cell_size);
+
     Cylinder                                        vessel;
+    BoundaryIds                                     boundary_ids;
     dealii::parallel::distributed::Triangulation<3> forest;
     dealii::MappingQ<3>                             quadratic;
     int                                             initial_level = 0;

@@ -12,7 +12,8 @@ namespace graupel
   struct Summary
   {
     std::string             parameter_file;
-    unsigned int            cells = 0; // of the mesh, at the end
+    unsigned int            cells         = 0;  // of the mesh, at the end
+    double                  cross_section = 0.; // of the mesh, mean [m^2]
     BedResult               bed;
     std::vector<CaseResult> cases;
     FluidProperties         fluid;
