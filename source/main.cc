@@ -15,7 +15,7 @@ namespace
   {
     std::string              file, output;
     std::vector<std::string> overrides;
-    bool                     check = false, print_parameters = false;
+    bool                     check = false, print_parameters = false, resume = false;
   };
 
   enum class Outcome
@@ -50,6 +50,8 @@ namespace
       .add_option("--set", options.overrides, "Override a value: \"Section/name=value\"")
       ->take_all()
       ->allow_extra_args(false);
+    app.add_flag(
+      "--resume", options.resume, "Go on from the checkpoint in the output directory");
     app.add_option("--output", options.output, "Directory of the results");
     app.footer("Start with one of the examples, and under MPI with mpirun -np N:\n"
                "  graupel prm/packed-bed/ricklick-2x.prm");
@@ -59,6 +61,7 @@ namespace
   void
   run_whole(const RunParameters &parameters,
             const std::string   &file,
+            const bool           resume,
             ResultFiles         &files,
             Progress            &progress)
   {
@@ -80,7 +83,7 @@ namespace
                 progress,
                 MPI_COMM_WORLD);
     else
-      PackedBed(parameters, file, files, progress, MPI_COMM_WORLD).run();
+      PackedBed(parameters, file, files, progress, MPI_COMM_WORLD).run(resume);
   }
 
   // Reads, checks and runs. The output directory and whether a report is
@@ -116,12 +119,19 @@ namespace
                         << std::endl;
             return Outcome::told;
           }
-        ResultFiles files(parameters.output.directory, MPI_COMM_WORLD);
+        require(!options.resume ||
+                  !(parameters.manufactured.is_given() || parameters.study.is_wanted()),
+                "Refinement study/vary",
+                "a study cannot be resumed; run it without --resume");
+        if (options.resume) // before anything is touched
+          read_checkpoint(parameters.output.directory + "/checkpoint",
+                          identity_of_run(parameters));
+        ResultFiles files(parameters.output.directory, MPI_COMM_WORLD, options.resume);
         files.write_parameters(prm);
         Progress progress = is_first_rank()
                               ? Progress(std::cout, stdout_is_terminal(), &files.log())
                               : Progress();
-        run_whole(parameters, options.file, files, progress);
+        run_whole(parameters, options.file, options.resume, files, progress);
         directory = parameters.output.directory;
         report    = parameters.output.report;
         return Outcome::finished;

@@ -88,6 +88,13 @@ namespace graupel
     prm.add_parameter("lower", lower, "Lower end of the section that volume fills [m].");
     prm.add_parameter(
       "upper", upper, "Upper end of the section that volume fills; 0 for the top [m].");
+    prm.add_parameter(
+      "start from",
+      start_from,
+      "Output directory of another run: its settled bed is taken instead "
+      "of filling, and settles again where it must. The vessel's diameter "
+      "and the particles' must be the same; density, contacts, mesh and "
+      "flow may differ. Empty: fill.");
     prm.add_parameter("file",
                       file,
                       "CSV file of the method list, with the columns x, y, z, diameter "

@@ -204,25 +204,35 @@ namespace graupel
     p.n_owned += std::count(owners.begin(), owners.end(), me);
     p.resize(p.n_owned);
     for (std::size_t k = 0; k < added.size(); ++k)
-      if (owners[k] == me)
-        {
-          p.id[row]            = next_id + k;
-          p.type[row]          = added[k].type;
-          p.body[row].position = added[k].position;
-          p.body[row].radius   = added[k].radius;
-          p.body[row].velocity = added[k].velocity;
-          p.body[row].spin     = added[k].spin;
+      {
+        const unsigned int id = added[k].id < 0 ? next_id : added[k].id;
+        next_id               = std::max(next_id, id + 1);
+        if (owners[k] != me)
+          continue;
+        p.id[row]            = id;
+        p.type[row]          = added[k].type;
+        p.body[row].position = added[k].position;
+        p.body[row].radius   = added[k].radius;
+        p.body[row].velocity = added[k].velocity;
+        p.body[row].spin     = added[k].spin;
 
-          std::vector<double> label{1. * me, 1. * row};
-          handler.insert_particle(added[k].position,
-                                  locations[k].reference,
-                                  next_id + k,
-                                  locations[k].cell,
-                                  dealii::make_array_view(label));
-          ++row;
-        }
-    next_id += added.size();
+        std::vector<double> label{1. * me, 1. * row};
+        handler.insert_particle(added[k].position,
+                                locations[k].reference,
+                                id,
+                                locations[k].cell,
+                                dealii::make_array_view(label));
+        ++row;
+      }
     n_expected += added.size();
+  }
+
+  void
+  ParticleStore::clear()
+  {
+    handler.clear_particles();
+    cells.clear();
+    n_expected = next_id = 0;
   }
 
   ParticleStore::Moves

@@ -20,7 +20,10 @@ namespace graupel
       refresh_preconditioner();
     double tolerance = std::max(parameters.linear_tolerance * rhs.l2_norm(),
                                 std::numeric_limits<double>::min());
-    last_iterations  = solve_to(tolerance);
+    if (!std::isfinite(tolerance))
+      throw SolverFailure("The flow's equations have values that are not finite: is the "
+                          "flux or the pressure of a boundary condition?");
+    last_iterations = solve_to(tolerance);
     for (unsigned int round = 1;
          round < mass_rounds && mass_error() > parameters.mass_tolerance * throughput;
          ++round)

@@ -248,6 +248,26 @@ namespace graupel
     connection.disconnect();
   }
 
+  void
+  VesselMesh::save(const std::string &file) const
+  {
+    forest.save(file);
+  }
+
+  void
+  VesselMesh::load(const std::string &file)
+  {
+    // p4est reads onto the coarse cells only.
+    while (forest.n_global_levels() > 1)
+      {
+        for (const auto &cell : forest.active_cell_iterators())
+          if (cell->is_locally_owned() && cell->level() > 0)
+            cell->set_coarsen_flag();
+        forest.execute_coarsening_and_refinement();
+      }
+    forest.load(file);
+  }
+
   double
   VesselMesh::smallest_edge() const
   {

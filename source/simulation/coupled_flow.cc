@@ -87,18 +87,52 @@ namespace graupel
     transfer->interpolate(pointers);
     transfer.reset();
     build();
+    take_over(fields, time);
+    return true;
+  }
+
+  void
+  CoupledFlow::take_over(std::array<NodalVector, 4> &fields, const double time)
+  {
     for (NodalVector &field : fields)
       {
         node_space->hanging_nodes.distribute(field);
         field.update_ghost_values();
       }
-    const NodalVectorField new_flux{fields[0], fields[1], fields[2]};
+    const NodalVectorField flux{fields[0], fields[1], fields[2]};
     particles_and_fluid->update_void_fraction(dem.store(), dem.particles());
-    particles_and_fluid->follow(new_flux, exchange().medium().void_fraction);
+    particles_and_fluid->follow(flux, exchange().medium().void_fraction);
     solver->set_superficial_velocity(superficial_velocity);
     solver->set_time(time);
-    solver->continue_from(new_flux, fields[3], exchange().medium().void_fraction);
-    return true;
+    solver->continue_from(flux, fields[3], exchange().medium().void_fraction);
+  }
+
+  void
+  CoupledFlow::save(const std::string &file) const
+  {
+    dealii::parallel::distributed::SolutionTransfer<3, NodalVector> transfer(
+      node_space->dof_handler);
+    const NodalVectorField &flux = fluid().flux();
+    transfer.prepare_for_serialization(
+      {&flux[0], &flux[1], &flux[2], &fluid().pressure()});
+    mesh.save(file);
+  }
+
+  void
+  CoupledFlow::load(const double time)
+  {
+    std::array<NodalVector, 4> fields;
+    std::vector<NodalVector *> pointers;
+    for (NodalVector &field : fields)
+      {
+        node_space->initialize(field);
+        pointers.push_back(&field);
+      }
+    dealii::parallel::distributed::SolutionTransfer<3, NodalVector> transfer(
+      node_space->dof_handler);
+    transfer.deserialize(pointers);
+    dem.synchronise();
+    take_over(fields, time);
   }
 
   FlowSolver::Report

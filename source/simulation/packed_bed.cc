@@ -18,9 +18,8 @@ namespace graupel
     constexpr unsigned int maximum_halvings = 6;
 
     // While there is no fluid: simulated time between two looks at how particles
-    // are spread over the ranks [s], and what a cell counts, in particles.
-    constexpr double balance_interval    = 0.1;
-    constexpr double share_of_empty_cell = 0.02;
+    // are spread over the ranks [s].
+    constexpr double balance_interval = 0.1;
     // With fluid: cost of a cell in one step of the fluid, in substeps of one
     // particle (50 microseconds over 30 nanoseconds).
     constexpr double particle_substeps_of_cell = 1700.;
@@ -87,17 +86,28 @@ namespace graupel
   }
 
   void
-  PackedBed::run()
+  PackedBed::run(const bool resume)
   {
     std::ostringstream mesh_line;
     mesh_line << "mesh: " << mesh.triangulation().n_global_active_cells() << " cells, on "
               << dealii::Utilities::MPI::n_mpi_processes(communicator) << " rank(s)";
     progress.say(mesh_line.str());
-    fill();
-    settle();
+    if (resume)
+      restore();
+    else
+      {
+        if (parameters.filling.start_from.empty())
+          fill();
+        else
+          take_bed();
+        settle();
+        present_bed();
+        save();
+      }
     if (!parameters.sweep.superficial_velocities.empty())
       {
-        start_fluid();
+        if (!coupled)
+          start_fluid();
         flow();
       }
     write_summary_file();
@@ -175,8 +185,12 @@ namespace graupel
       }
     progress.finish_phase();
     time += settling.time();
-    dem.synchronise();
+  }
 
+  void
+  PackedBed::present_bed()
+  {
+    dem.synchronise();
     const auto bed = observables.bed();
     summary.bed    = {dem.n_global(),
                       parameters.simulated_diameter(),
@@ -190,6 +204,9 @@ namespace graupel
                       parameters.cylinder.height};
     progress.say(describe_bed(summary.bed, dem));
     const CostSheet::Scope timing(summary.costs, CostSheet::output);
+    const DemState         particles = dem.state();
+    if (dealii::Utilities::MPI::this_mpi_process(communicator) == 0)
+      write_bed(files.path("bed.bin"), identity_of_bed(parameters), particles);
     files.add_particles(time, dem);
     files.write_bed(bed_profiles(dem, bed.height, parameters.simulated_diameter()));
     if (parameters.output.force_chains)
@@ -199,11 +216,13 @@ namespace graupel
   void
   PackedBed::flow()
   {
-    for (const double velocity : parameters.sweep.superficial_velocities)
+    const auto &velocities = parameters.sweep.superficial_velocities;
+    for (std::size_t n = summary.cases.size(); n < velocities.size(); ++n)
       {
-        summary.cases.push_back(run_case(velocity));
+        summary.cases.push_back(run_case(velocities[n]));
         progress.say(describe_case(summary.cases.back()));
         files.write_cases(summary.cases);
+        save();
       }
   }
 
@@ -211,7 +230,6 @@ namespace graupel
   PackedBed::run_case(const double superficial_velocity)
   {
     const unsigned int number = summary.cases.size() + 1;
-    const double       begin  = time;
     const double       wall = Progress::steady_seconds(), cpu = cpu_seconds();
     const bool         is_still = parameters.sweep.mode == "steady";
     const double       duration =
@@ -226,20 +244,19 @@ namespace graupel
     else
       progress.start_phase(name.str(), 0., duration);
 
-    steady = SteadyMonitor(
-      parameters.sweep.steady_window, parameters.sweep.steady_tolerance, dem.weight());
-    case_rows.clear();
-    coupled->set_superficial_velocity(superficial_velocity);
+    if (!in_case)
+      begin_case(superficial_velocity);
     if (is_still)
       run_steady(number);
     else
       run_transient(number, duration);
     progress.finish_phase();
+    in_case = false;
 
     CaseResult result;
     result.superficial_velocity = superficial_velocity;
     result.steady               = is_still || steady.is_steady();
-    result.simulated_time       = time - begin;
+    result.simulated_time       = time - case_begin;
     evaluate(result, number);
     result.wall_seconds = Progress::steady_seconds() - wall;
     result.cpu_seconds  = dealii::Utilities::MPI::sum(cpu_seconds() - cpu, communicator);
@@ -247,20 +264,32 @@ namespace graupel
   }
 
   void
+  PackedBed::begin_case(const double superficial_velocity)
+  {
+    in_case       = true;
+    case_begin    = time;
+    case_velocity = superficial_velocity;
+    steady        = SteadyMonitor(
+      parameters.sweep.steady_window, parameters.sweep.steady_tolerance, dem.weight());
+    case_rows.clear();
+    coupled->set_superficial_velocity(superficial_velocity);
+  }
+
+  void
   PackedBed::run_transient(const unsigned int number, const double duration)
   {
-    const double begin = time;
-    step_limit         = parameters.sweep.time_step;
-    while (time - begin < duration * (1. - 1e-12))
+    step_limit = parameters.sweep.time_step;
+    while (time - case_begin < duration * (1. - 1e-12))
       {
-        const double step = step_fluid(next_step(duration - (time - begin)));
+        const double step = step_fluid(next_step(duration - (time - case_begin)));
         adapt_if_due();
         move_particles(step);
         record_monitor(number);
         write_fields_if_due();
-        progress.update(time - begin);
+        progress.update(time - case_begin);
         if (parameters.sweep.stop_when == "steady" && steady.is_steady())
           break;
+        save_if_due();
       }
   }
 
@@ -268,7 +297,15 @@ namespace graupel
   PackedBed::run_steady(const unsigned int number)
   {
     unsigned int n = 0;
-    last_report = coupled->find_steady_state([&](const double) { progress.update(++n); });
+    try
+      {
+        last_report =
+          coupled->find_steady_state([&](const double) { progress.update(++n); });
+      }
+    catch (const SolverFailure &error)
+      {
+        fail_with_checkpoint(error);
+      }
     std::ostringstream text;
     text << "steady flow after " << n << " linear systems";
     progress.say(text.str());
@@ -301,7 +338,7 @@ namespace graupel
       catch (const SolverFailure &error)
         {
           if (halvings == maximum_halvings)
-            throw;
+            fail_with_checkpoint(error);
           step *= 0.5;
           std::ostringstream text;
           text << "at " << time << " s: " << error.what() << " Trying a step of " << step

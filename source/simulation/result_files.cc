@@ -18,10 +18,11 @@ namespace graupel
   namespace
   {
     // Everything that a run writes, so that a new one can take it away first.
-    const std::regex own_files("(parameters\\.prm|log\\.txt|summary\\.json|cases\\.csv|"
-                               "monitors\\.csv|(profiles|radial|midplane)-[0-9]+\\.csv|"
-                               "bed-(axial|radial|janssen|coordination|contacts)\\.csv|"
-                               "(solution|particles|contacts)\\.pvd|report\\.html)");
+    const std::regex own_files(
+      "(parameters\\.prm|log\\.txt|summary\\.json|cases\\.csv|"
+      "monitors\\.csv|(profiles|radial|midplane)-[0-9]+\\.csv|"
+      "bed-(axial|radial|janssen|coordination|contacts)\\.csv|"
+      "(solution|particles|contacts)\\.pvd|report\\.html|bed\\.bin)");
 
     // All ranks write into one file: a rank without particles would otherwise leave
     // a file without points, which ParaView complains about.
@@ -36,7 +37,8 @@ namespace graupel
       for (const auto &entry : fs::directory_iterator(directory))
         if (std::regex_match(entry.path().filename().string(), own_files))
           fs::remove(entry.path());
-      for (const char *folder : {"vtu", "figures"})
+      for (const char *folder :
+           {"vtu", "figures", "checkpoint", "checkpoint.new", "checkpoint.old"})
         fs::remove_all(fs::path(directory) / folder);
       fs::create_directory(fs::path(directory) / "vtu");
       std::ofstream trial(fs::path(directory) / "log.txt");
@@ -81,7 +83,9 @@ namespace graupel
     }
   } // namespace
 
-  ResultFiles::ResultFiles(const std::string &directory, MPI_Comm communicator)
+  ResultFiles::ResultFiles(const std::string &directory,
+                           MPI_Comm           communicator,
+                           const bool         goes_on)
     : directory(directory)
     , communicator(communicator)
     , is_writer(dealii::Utilities::MPI::this_mpi_process(communicator) == 0)
@@ -90,7 +94,8 @@ namespace graupel
     if (is_writer)
       try
         {
-          prepare_directory(directory);
+          if (!goes_on)
+            prepare_directory(directory);
         }
       catch (const std::exception &error)
         {
@@ -102,14 +107,34 @@ namespace graupel
             "cannot be written (" + failure + "); choose another with --output");
     if (is_writer)
       {
-        log_stream = open("log.txt");
-        monitors   = open("monitors.csv");
+        log_stream.open(path("log.txt"), goes_on ? std::ios::app : std::ios::out);
+        if (goes_on)
+          return;
+        monitors = open("monitors.csv");
         monitors
           << "time,phase,case,superficial_velocity,pressure_drop,bed_height,bottom_force,"
              "wall_force,fluid_force,kinetic_energy_per_particle,maximum_speed,"
              "mass_imbalance,momentum_imbalance,solid_volume_error,linear_iterations,"
              "cells,worst_node_imbalance,worst_cell_imbalance\n";
       }
+  }
+
+  void
+  ResultFiles::continue_from(const Written &earlier, const double time)
+  {
+    records = earlier;
+    if (!is_writer)
+      return;
+    std::ifstream            before(path("monitors.csv"));
+    std::vector<std::string> lines;
+    // The header does not begin with a number.
+    for (std::string line; std::getline(before, line);)
+      if (lines.empty() || std::strtod(line.c_str(), nullptr) <= time * (1. + 1e-9))
+        lines.push_back(line);
+    before.close();
+    monitors = open("monitors.csv");
+    for (const std::string &line : lines)
+      monitors << line << '\n';
   }
 
   std::string
@@ -246,44 +271,44 @@ namespace graupel
       std::vector<dealii::DataComponentInterpretation::DataComponentInterpretation>(
         3, dealii::DataComponentInterpretation::component_is_part_of_vector));
     output.build_patches(nodes.mesh.mapping());
-    field_records.emplace_back(time,
-                               "vtu/" +
-                                 output.write_vtu_with_pvtu_record(directory + "/vtu/",
-                                                                   "solution",
-                                                                   field_records.size(),
-                                                                   communicator,
-                                                                   counter_digits,
-                                                                   one_file));
-    write_records("solution.pvd", field_records);
+    records.fields.emplace_back(time,
+                                "vtu/" +
+                                  output.write_vtu_with_pvtu_record(directory + "/vtu/",
+                                                                    "solution",
+                                                                    records.fields.size(),
+                                                                    communicator,
+                                                                    counter_digits,
+                                                                    one_file));
+    write_records("solution.pvd", records.fields);
   }
 
   void
   ResultFiles::add_particles(const double time, const Dem &dem)
   {
-    particle_records.emplace_back(
+    records.particles.emplace_back(
       time,
       "vtu/" + ParticleOutput(dem).write_vtu_with_pvtu_record(directory + "/vtu/",
                                                               "particles",
-                                                              particle_records.size(),
+                                                              records.particles.size(),
                                                               communicator,
                                                               counter_digits,
                                                               one_file));
-    write_records("particles.pvd", particle_records);
+    write_records("particles.pvd", records.particles);
   }
 
   void
   ResultFiles::add_contacts(const double time, const Dem &dem)
   {
-    contact_records.emplace_back(time,
-                                 "vtu/" +
-                                   ContactOutput(dem.contact_states())
-                                     .write_vtu_with_pvtu_record(directory + "/vtu/",
-                                                                 "contacts",
-                                                                 contact_records.size(),
-                                                                 communicator,
-                                                                 counter_digits,
-                                                                 one_file));
-    write_records("contacts.pvd", contact_records);
+    records.contacts.emplace_back(time,
+                                  "vtu/" +
+                                    ContactOutput(dem.contact_states())
+                                      .write_vtu_with_pvtu_record(directory + "/vtu/",
+                                                                  "contacts",
+                                                                  records.contacts.size(),
+                                                                  communicator,
+                                                                  counter_digits,
+                                                                  one_file));
+    write_records("contacts.pvd", records.contacts);
   }
 
   void

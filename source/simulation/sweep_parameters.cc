@@ -115,6 +115,13 @@ namespace graupel
       "Whether the contacts are written for ParaView, after settling and at "
       "the end of each flow case.");
     prm.add_parameter(
+      "checkpoint interval",
+      checkpoint_interval,
+      "Wall-clock time between two checkpoints while the fluid flows, from which "
+      "--resume "
+      "goes on, beside those at the ends of settling and of each flow case and before a "
+      "step that fails; 0 for no more than these [min].");
+    prm.add_parameter(
       "report", report, "Whether report.html is made at the end of the run.");
     prm.leave_subsection();
   }
@@ -124,6 +131,9 @@ namespace graupel
   {
     require(!directory.empty(), "Output/directory", "name a directory");
     require(interval >= 0., "Output/interval", "must not be negative; 0 switches it off");
+    require(checkpoint_interval >= 0.,
+            "Output/checkpoint interval",
+            "must not be negative; 0 switches it off");
     require(midplane_points >= 3, "Output/mid-plane points", "needs at least 3 points");
     require(annuli >= 2, "Output/annuli", "needs at least 2 annuli");
   }

@@ -173,6 +173,108 @@ class ShortRun(unittest.TestCase):
             self.assertFalse((pathlib.Path(folder) / "summary.json").exists())
 
 
+class Checkpoints(unittest.TestCase):
+    """A run that stops goes on where it was, and its bed serves another."""
+
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = tempfile.TemporaryDirectory()
+        cls.path = pathlib.Path(cls.folder.name)
+        cls.whole = cls.run_short(cls.path / "whole")
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.folder.cleanup()
+
+    @staticmethod
+    def run_short(output, *arguments, ranks=1):
+        finished = call(
+            SHORT, "--set", "Output/report=false", "--output", output, *arguments, ranks=ranks
+        )
+        assert finished.returncode == 0, finished.stderr
+        return json.loads((output / "summary.json").read_text())
+
+    def expect_same_cases(self, summary, delta):
+        self.assertEqual(len(summary["cases"]), len(self.whole["cases"]))
+        for there, here in zip(summary["cases"], self.whole["cases"]):
+            for key in ("pressure_drop", "bottom_force", "fluid_force", "simulated_time"):
+                self.assertAlmostEqual(there[key] / here[key], 1.0, delta=delta, msg=key)
+
+    def stop(self, output, *overrides):
+        arguments = [part for override in overrides for part in ("--set", override)]
+        finished = call(SHORT, "--output", output, *arguments)
+        self.assertEqual(finished.returncode, 1, finished.stdout)
+        self.assertIn("--resume", finished.stderr)
+        self.assertIn(str(output / "checkpoint"), finished.stderr)
+        self.assertFalse((output / "summary.json").exists())
+
+    def test_a_failed_first_step_is_resumed_on_another_number_of_ranks(self):
+        output = self.path / "first-step"
+        self.stop(output, "Flow solver/maximum iterations=1")
+        summary = self.run_short(output, "--resume", ranks=2)
+        self.assertEqual(summary["bed"], self.whole["bed"])
+        self.expect_same_cases(summary, 1e-9)
+
+    def test_a_failure_within_a_case_is_resumed(self):
+        output = self.path / "within"
+        # Behind t = 0.05 s, the end of the fifth step, no step can be solved.
+        self.stop(
+            output, "Boundary conditions/bottom=velocity 0; 0; V*(t > 0.05001 ? 1e300 : 1)"
+        )
+        # The first step behind the checkpoint has no history of the subscales.
+        self.expect_same_cases(self.run_short(output, "--resume"), 1e-4)
+        whole, resumed = (
+            (self.path / name / "monitors.csv").read_text().splitlines()
+            for name in ("whole", "within")
+        )
+        times = [[line.split(",")[0] for line in lines] for lines in (whole, resumed)]
+        self.assertEqual(times[0], times[1], "each step once, in order")
+
+    def test_a_finished_run_is_resumed_for_a_further_case(self):
+        output = self.path / "further"
+        self.run_short(output, "--set", "Flow/superficial velocities=0.3")
+        self.expect_same_cases(self.run_short(output, "--resume"), 1e-4)
+
+    def test_a_settled_bed_serves_another_run(self):
+        summary = self.run_short(
+            self.path / "second",
+            "--set",
+            f"Filling/start from={self.path / 'whole'}",
+            "--set",
+            "Particles/density=1100",
+            ranks=2,
+        )
+        self.assertNotIn("fill:", (self.path / "second" / "log.txt").read_text())
+        # The lighter spheres overlap less.
+        for key in ("mean_void_fraction", "height"):
+            self.assertAlmostEqual(summary["bed"][key] / self.whole["bed"][key], 1.0, delta=3e-3)
+        ratio = summary["cases"][0]["weight"] / self.whole["cases"][0]["weight"]
+        self.assertAlmostEqual(ratio, 1100 / 2700, delta=1e-9)
+
+    def refused(self, *arguments, says):
+        finished = call(SHORT, *arguments)
+        self.assertEqual(finished.returncode, 1, finished.stdout)
+        for word in says:
+            self.assertIn(word, finished.stderr)
+
+    def test_what_is_not_there_or_another_is_refused(self):
+        nowhere, whole = self.path / "nowhere", self.path / "whole"
+        self.refused("--resume", "--output", nowhere, says=["no checkpoint", "--resume"])
+        self.refused(
+            "--resume", "--output", whole, "--set", "Particles/density=1100",
+            says=["Particles/density", "2700", "1100"],
+        )  # fmt: skip
+        other = self.path / "other"
+        self.refused(
+            "--output", other, "--set", f"Filling/start from={nowhere}",
+            says=["Filling/start from", "no settled bed"],
+        )  # fmt: skip
+        self.refused(
+            "--output", other, "--set", f"Filling/start from={whole}",
+            "--set", "Particles/scale=1", says=["Particles/scale"],
+        )  # fmt: skip
+
+
 if __name__ == "__main__":
     BINARY = sys.argv.pop(1)
     unittest.main()

@@ -4,6 +4,7 @@
 #include <graupel/base/cost_sheet.h>
 #include <graupel/dem/contact_sweep.h>
 #include <graupel/dem/dem_parameters.h>
+#include <graupel/dem/dem_state.h>
 #include <graupel/dem/halo.h>
 #include <graupel/dem/integration.h>
 #include <graupel/dem/particle_store.h>
@@ -69,6 +70,17 @@ namespace graupel
      * it.
      */
     void adapt_mesh(const double cell_share);
+
+    /** All that the motion goes on from, the same on every rank. Collective. */
+    DemState state() const;
+
+    /**
+     * Goes on from @p state instead of what is here; the mesh may have changed since
+     * construction. The masses are those of these parameters. Throws DemError for
+     * particles that these parameters do not have. Collective. The motion goes on as it
+     * would have, bit by bit.
+     */
+    void restore(const DemState &state);
 
     /** Uses the friction of packing (true) or that of the flow; springs stay. */
     void use_packing_materials(const bool packing);

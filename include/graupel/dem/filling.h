@@ -29,6 +29,8 @@ namespace graupel
     double lower = 0., upper = 0.;
     /** CSV file of the method list. */
     std::string file;
+    /** Output directory of another run, whose settled bed is taken; empty: fill. */
+    std::string start_from;
     /** Start of the random numbers [-]. */
     unsigned int seed = 1;
 

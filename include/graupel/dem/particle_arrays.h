@@ -94,6 +94,8 @@ namespace graupel
     dealii::Tensor<1, 3> spin = {};
     /** Index into DemParameters::types. */
     unsigned char type = 0;
+    /** Its number, which no particle has had; negative: the next free one. */
+    std::int64_t id = -1;
   };
 
   /** Volume of a sphere [m^3]. */

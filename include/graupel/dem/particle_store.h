@@ -37,12 +37,15 @@ namespace graupel
     explicit ParticleStore(VesselMesh &mesh);
 
     /**
-     * Adds particles with the next free ids, behind the own rows of
+     * Adds particles, without an id with the next free one, behind the own rows of
      * @p particles, which must hold no ghosts. The same call on every rank,
      * collective; each goes to the lowest rank that owns a cell around its center.
      * Mass is left to the caller. Throws DemError for a point outside the mesh.
      */
     void insert(const std::vector<NewParticle> &added, ParticleArrays &particles);
+
+    /** Forgets all particles, on a mesh that may have changed. Collective. */
+    void clear();
 
     /** The contacts of some own rows, given to a migration to go with them. */
     using ContactsOf =

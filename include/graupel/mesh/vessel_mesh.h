@@ -127,6 +127,14 @@ namespace graupel
      */
     void adapt(const CellWeight &weight);
 
+    /** Writes the refinement, and what is attached for it, to files whose names begin with
+     * @p file. Collective. */
+    void save(const std::string &file) const;
+
+    /** Takes the refinement over from save(), of a mesh with the same parameters, on any
+     * number of ranks. Everything that knows the old mesh is void. Collective. */
+    void load(const std::string &file);
+
     /** The smallest distance between two vertices of one cell, over all ranks [m]. */
     double smallest_edge() const;
 

@@ -52,6 +52,16 @@ namespace graupel
      */
     bool adapt(const double cell_share);
 
+    /** Writes mesh and fields to files whose names begin with @p file. Collective. */
+    void save(const std::string &file) const;
+
+    /**
+     * Goes on from the fields of save(), at @p time [s], on the mesh that VesselMesh
+     * has loaded from the same file and past the particles where they are. The next
+     * step is of first order. Collective.
+     */
+    void load(const double time);
+
     /** Pressure at the bottom minus pressure at the top [Pa]. */
     double pressure_drop() const;
 
@@ -75,6 +85,8 @@ namespace graupel
 
   private:
     void build();
+    // Flux and pressure (4 fields) on the nodes as they are now.
+    void take_over(std::array<NodalVector, 4> &fields, const double time);
 
     const RunParameters &parameters;
     VesselMesh          &mesh;

@@ -2,6 +2,7 @@
 #define graupel_simulation_packed_bed_h
 
 #include <graupel/base/progress.h>
+#include <graupel/simulation/checkpoint.h>
 #include <graupel/simulation/coupled_flow.h>
 #include <graupel/simulation/result_files.h>
 #include <graupel/simulation/summary.h>
@@ -26,8 +27,11 @@ namespace graupel
               Progress            &progress,
               MPI_Comm             communicator);
 
-    /** Runs to the end and writes all files but report.html. Collective. */
-    void run();
+    /**
+     * Runs to the end and writes all files but report.html; with @p resume, from the
+     * checkpoint in the output directory on. Collective.
+     */
+    void run(const bool resume = false);
 
     /** What came out, after run(). */
     const Summary &
@@ -37,11 +41,24 @@ namespace graupel
     }
 
   private:
+    // What a cell counts while there is no fluid, in particles.
+    static constexpr double share_of_empty_cell = 0.02;
+
     void balance_if_due();
     void start_fluid();
     void fill();
     void settle();
+    void take_bed();
+    void present_bed();
     void flow();
+    void begin_case(const double superficial_velocity);
+
+    RunState run_state() const;
+    void     save();
+    void     save_if_due();
+    void     restore();
+    // Adds where the state before is.
+    [[noreturn]] void fail_with_checkpoint(const SolverFailure &error);
 
     CaseResult run_case(const double superficial_velocity);
     void       run_transient(const unsigned int number, const double duration);
@@ -77,8 +94,13 @@ namespace graupel
     double                  step_limit;         // after a step that failed [s]
     FlowSolver::Report      last_report;
     SteadyMonitor           steady;
+    bool                    in_case       = false;
+    double                  case_begin    = 0.; // [s]
+    double                  case_velocity = 0.; // [m/s]
     std::vector<MonitorRow> case_rows;
-    const double            started;
+    double                  started; // wall clock; before that of a resumed run [s]
+    double                  cpu_before = 0.; // of the run that this one resumes [s]
+    double                  next_save  = 0.; // wall clock [s]
   };
 } // namespace graupel
 

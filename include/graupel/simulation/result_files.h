@@ -19,11 +19,32 @@ namespace graupel
   {
   public:
     /**
-     * Makes the directory, or takes the results of an earlier run out of it.
+     * Makes the directory, or takes the results of an earlier run out of it; with
+     * @p goes_on they stay, for continue_from().
      * Throws InputError("Output/directory", ...) if it cannot be written.
      * Collective.
      */
-    ResultFiles(const std::string &directory, MPI_Comm communicator);
+    ResultFiles(const std::string &directory,
+                MPI_Comm           communicator,
+                const bool         goes_on = false);
+
+    using Records = std::vector<std::pair<double, std::string>>;
+
+    /** The times and files of the ParaView series so far. */
+    struct Written
+    {
+      Records fields, particles, contacts;
+    };
+
+    const Written &
+    written() const
+    {
+      return records;
+    }
+
+    /** Goes on behind what an earlier run had written up to @p time [s]; what came
+     * later is dropped. */
+    void continue_from(const Written &earlier, const double time);
 
     /** log.txt; writes nothing on ranks other than 0. */
     std::ostream &
@@ -77,8 +98,6 @@ namespace graupel
     std::string path(const std::string &name) const;
 
   private:
-    using Records = std::vector<std::pair<double, std::string>>;
-
     std::ofstream open(const std::string &name) const;
     void          write_records(const std::string &name, const Records &records) const;
 
@@ -86,7 +105,7 @@ namespace graupel
     const MPI_Comm    communicator;
     const bool        is_writer;
     std::ofstream     log_stream, monitors;
-    Records           field_records, particle_records, contact_records;
+    Written           records;
   };
 } // namespace graupel
 

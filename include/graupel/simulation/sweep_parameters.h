@@ -54,6 +54,9 @@ namespace graupel
     unsigned int annuli = 16;
     /** Whether contacts.pvd is written, after settling and at the end of each case. */
     bool force_chains = true;
+    /** Wall-clock time between two checkpoints beside those at the ends of settling and
+     * cases; 0: none [min]. */
+    double checkpoint_interval = 10.;
     /** Whether report.html is made at the end. */
     bool report = true;
 

@@ -1,0 +1,246 @@
+#include <graupel/base/parameters.h>
+#include <graupel/simulation/checkpoint.h>
+
+#include <boost/archive/binary_iarchive.hpp>
+#include <boost/archive/binary_oarchive.hpp>
+#include <boost/serialization/array.hpp>
+#include <boost/serialization/binary_object.hpp>
+#include <boost/serialization/map.hpp>
+#include <boost/serialization/utility.hpp>
+#include <boost/serialization/vector.hpp>
+
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+namespace graupel
+{
+  namespace
+  {
+    namespace fs = std::filesystem;
+
+    // Numbers only, by their bytes: a checkpoint is read by the same version.
+    template <class Archive, class Record>
+    void
+    raw(Archive &archive, Record &record)
+    {
+      static_assert(std::is_trivially_copyable_v<Record>);
+      auto     bytes = boost::serialization::make_binary_object(&record, sizeof(Record));
+      archive &bytes;
+    }
+
+    template <class Archive, class Record>
+    void
+    raw(Archive &archive, std::vector<Record> &records)
+    {
+      std::size_t n = records.size();
+      archive    &n;
+      records.resize(n);
+      for (Record &record : records)
+        raw(archive, record);
+    }
+
+    // All but the name of the phase, which is the flow.
+    template <class Archive>
+    void
+    serialize_row(Archive &archive, MonitorRow &row)
+    {
+      row.phase = "flow";
+      for (double *value : {&row.time,
+                            &row.superficial_velocity,
+                            &row.pressure_drop,
+                            &row.bed_height,
+                            &row.bottom_force,
+                            &row.wall_force,
+                            &row.fluid_force,
+                            &row.kinetic_energy,
+                            &row.maximum_speed,
+                            &row.mass_imbalance,
+                            &row.momentum_imbalance,
+                            &row.solid_volume_error,
+                            &row.worst_node_imbalance,
+                            &row.worst_cell_imbalance})
+        archive &*value;
+      for (unsigned int *count : {&row.flow_case, &row.linear_iterations, &row.cells})
+        archive &*count;
+    }
+
+    template <class Archive>
+    void
+    exchange(Archive &archive, RunState &state)
+    {
+      archive &state.identity &state.time &state.next_output;
+      raw(archive, state.bed);
+      raw(archive, state.cases);
+      raw(archive, state.ledger);
+      raw(archive, state.costs);
+      archive &state.wall_seconds &state.cpu_seconds;
+      archive &state.written.fields &state.written.particles &state.written.contacts;
+      archive &state.has_fluid &state.fluid_time &state.in_case;
+      archive &state.velocity &state.case_begin;
+      std::size_t              n = state.case_rows.size();
+      archive                 &n;
+      state.case_rows.resize(n);
+      for (MonitorRow &row : state.case_rows)
+        serialize_row(archive, row);
+    }
+
+    // The version goes first; false if the file is another's.
+    bool
+    check_version(boost::archive::binary_iarchive &archive)
+    {
+      std::string version;
+      archive    &version;
+      return version == GRAUPEL_VERSION;
+    }
+
+    const char *const another_version =
+      " was written by another version of the program and cannot be read";
+
+    void
+    compare(const Identity &here, const Identity &there, const std::string &where)
+    {
+      for (const auto &[parameter, value] : here)
+        if (const auto other = there.find(parameter);
+            other != there.end() && other->second != value)
+          {
+            std::ostringstream text;
+            text << where << " has " << other->second << " instead of " << value
+                 << "; set it back, or begin anew";
+            throw InputError(parameter, text.str());
+          }
+    }
+  } // namespace
+
+  Identity
+  identity_of_bed(const RunParameters &parameters)
+  {
+    return {{"Geometry/diameter", parameters.cylinder.diameter},
+            {"Particles/diameter", parameters.dem.particles.diameter},
+            {"Particles/scale", parameters.dem.particles.scale}};
+  }
+
+  Identity
+  identity_of_run(const RunParameters &parameters)
+  {
+    Identity result             = identity_of_bed(parameters);
+    result["Geometry/height"]   = parameters.cylinder.height;
+    result["Particles/density"] = parameters.dem.particles.density;
+    result["Mesh/cell size"]    = parameters.mesh.cell_size;
+    result["Mesh/cell height"]  = parameters.mesh.cell_height;
+    return result;
+  }
+
+  std::string
+  checkpoint_fields(const std::string &folder)
+  {
+    return folder + "/fields";
+  }
+
+  void
+  write_checkpoint(const std::string                              &folder,
+                   const RunState                                 &state,
+                   const DemState                                 &particles,
+                   const std::function<void(const std::string &)> &write_more,
+                   MPI_Comm                                        communicator)
+  {
+    const bool is_writer = dealii::Utilities::MPI::this_mpi_process(communicator) == 0;
+    const std::string unfinished = folder + ".new", last = folder + ".old";
+    std::string       failure;
+    if (is_writer)
+      try
+        {
+          fs::remove_all(unfinished);
+          fs::create_directory(unfinished);
+          std::ofstream stream(unfinished + "/state.bin", std::ios::binary);
+          boost::archive::binary_oarchive archive(stream);
+          const std::string               version = GRAUPEL_VERSION;
+          archive << version;
+          RunState copy(state);
+          exchange(archive, copy);
+          archive << particles;
+          if (!stream.flush())
+            failure = "is the disk full?";
+        }
+      catch (const std::exception &error)
+        {
+          failure = error.what();
+        }
+    failure = dealii::Utilities::MPI::broadcast(communicator, failure, 0);
+    if (!failure.empty())
+      throw std::runtime_error("Cannot write the checkpoint " + folder + ": " + failure);
+    write_more(checkpoint_fields(unfinished));
+    MPI_Barrier(communicator);
+    if (is_writer)
+      {
+        fs::remove_all(last);
+        if (fs::exists(folder))
+          fs::rename(folder, last);
+        fs::rename(unfinished, folder);
+        fs::remove_all(last);
+      }
+    MPI_Barrier(communicator);
+  }
+
+  std::pair<RunState, DemState>
+  read_checkpoint(const std::string &folder, const Identity &identity)
+  {
+    const std::string             file = folder + "/state.bin";
+    std::ifstream                 stream(file, std::ios::binary);
+    std::pair<RunState, DemState> result;
+    require(static_cast<bool>(stream),
+            "Output/directory",
+            "there is no checkpoint " + folder +
+              " to resume from; run without --resume, or name the directory of the run "
+              "that stopped with --output");
+    try
+      {
+        boost::archive::binary_iarchive archive(stream);
+        require(check_version(archive), "Output/directory", file + another_version);
+        exchange(archive, result.first);
+        archive >> result.second;
+      }
+    catch (const boost::archive::archive_exception &)
+      {
+        throw InputError("Output/directory", file + " is cut off or damaged");
+      }
+    compare(identity, result.first.identity, "the checkpoint " + folder);
+    return result;
+  }
+
+  void
+  write_bed(const std::string &file, const Identity &identity, const DemState &particles)
+  {
+    std::ofstream                   stream(file, std::ios::binary);
+    boost::archive::binary_oarchive archive(stream);
+    const std::string               version = GRAUPEL_VERSION;
+    archive << version << identity << particles;
+    if (!stream.flush())
+      throw std::runtime_error("Cannot write " + file + ": is the disk full?");
+  }
+
+  DemState
+  read_bed(const std::string &file, const Identity &identity)
+  {
+    const std::string parameter = "Filling/start from";
+    std::ifstream     stream(file, std::ios::binary);
+    require(static_cast<bool>(stream),
+            parameter,
+            "there is no settled bed " + file +
+              "; name the output directory of a run whose bed has settled");
+    Identity there;
+    DemState result;
+    try
+      {
+        boost::archive::binary_iarchive archive(stream);
+        require(check_version(archive), parameter, file + another_version);
+        archive >> there >> result;
+      }
+    catch (const boost::archive::archive_exception &)
+      {
+        throw InputError(parameter, file + " is cut off or damaged");
+      }
+    compare(identity, there, "the bed " + file);
+    return result;
+  }
+} // namespace graupel
