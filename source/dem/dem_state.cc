@@ -4,34 +4,11 @@
 #include <boost/serialization/array.hpp>
 #include <boost/serialization/vector.hpp>
 
-#include <cstring>
-
 namespace graupel
 {
   namespace
   {
     namespace mpi = dealii::Utilities::MPI;
-
-    DemState::Particle
-    packed(const ParticleArrays &p, const unsigned int row)
-    {
-      DemState::Particle particle;
-      particle.id   = p.id[row];
-      particle.type = p.type[row];
-      std::memcpy(particle.body.data(), &p.body[row], sizeof(Body));
-      particle.load = p.load[row].quanta;
-      for (unsigned int d = 0; d < 3; ++d)
-        particle.external_force[d] = p.external_force[row][d];
-      return particle;
-    }
-
-    Body
-    body_of(const DemState::Particle &particle)
-    {
-      Body body;
-      std::memcpy(static_cast<void *>(&body), particle.body.data(), sizeof(Body));
-      return body;
-    }
 
     template <class Element>
     std::vector<Element>
@@ -52,7 +29,7 @@ namespace graupel
     std::vector<std::uint32_t>      rows;
     for (unsigned int row = 0; row < arrays.n_owned; ++row)
       {
-        mine.push_back(packed(arrays, row));
+        mine.push_back({arrays.id[row], pack(arrays, row)});
         rows.push_back(row);
       }
     result.particles = from_all_ranks(mine, communicator());
@@ -79,16 +56,17 @@ namespace graupel
     std::vector<NewParticle> added;
     for (const auto &particle : state.particles)
       {
-        if (particle.type >= materials.n_types())
+        const Parcel &parcel = particle.parcel;
+        if (parcel.type >= materials.n_types())
           throw DemError("the checkpoint has particles of type " +
-                         std::to_string(particle.type + 1) +
+                         std::to_string(parcel.type + 1) +
                          ", which the parameters do not have");
-        const Body body = body_of(particle);
+        const Body body = body_of(parcel);
         added.push_back({body.position,
                          body.radius,
                          body.velocity,
                          body.spin,
-                         particle.type,
+                         parcel.type,
                          particle.id});
       }
     insert(added);
@@ -103,12 +81,10 @@ namespace graupel
     std::vector<std::int64_t> own;
     for (unsigned int row = 0; row < arrays.n_owned; ++row)
       {
-        const auto &particle    = *of(arrays.id[row]);
-        arrays.body[row]        = body_of(particle);
-        arrays.load[row].quanta = particle.load;
-        for (unsigned int d = 0; d < 3; ++d)
-          arrays.external_force[row][d] = particle.external_force[d];
-        own.push_back(particle.id);
+        const double mass = arrays.mass[row]; // of the present density
+        unpack(of(arrays.id[row])->parcel, arrays, row);
+        arrays.mass[row] = mass;
+        own.push_back(arrays.id[row]);
       }
     halo.rebuild(arrays);
     // Those with walls know one particle only, which must be here.

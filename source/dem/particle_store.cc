@@ -1,4 +1,5 @@
 #include <graupel/dem/dem_error.h>
+#include <graupel/dem/parcel.h>
 #include <graupel/dem/particle_store.h>
 
 #include <deal.II/grid/grid_tools.h>
@@ -6,7 +7,6 @@
 #include <boost/serialization/array.hpp>
 #include <boost/serialization/vector.hpp>
 
-#include <cstring>
 #include <limits>
 #include <sstream>
 
@@ -31,24 +31,6 @@ namespace graupel
     // How far a particle may go between two sorts of deal.II, in smallest edges.
     constexpr double longest_way = 0.5;
 
-    // What a particle has beside its place in the handler, on its way to
-    // another rank.
-    struct Parcel
-    {
-      unsigned char               type;
-      double                      mass;
-      std::array<double, 16>      body;
-      std::array<std::int64_t, 8> load;
-      std::array<double, 3>       external_force;
-
-      template <class Archive>
-      void
-      serialize(Archive &archive, const unsigned int)
-      {
-        archive &type &mass &body &load &external_force;
-      }
-    };
-
     // All that one rank sends another.
     struct Delivery
     {
@@ -62,30 +44,6 @@ namespace graupel
         archive &parcels &contacts;
       }
     };
-
-    Parcel
-    pack(const ParticleArrays &p, const unsigned int row)
-    {
-      Parcel parcel;
-      parcel.type = p.type[row];
-      parcel.mass = p.mass[row];
-      std::memcpy(parcel.body.data(), &p.body[row], sizeof(Body));
-      parcel.load = p.load[row].quanta;
-      for (unsigned int d = 0; d < 3; ++d)
-        parcel.external_force[d] = p.external_force[row][d];
-      return parcel;
-    }
-
-    void
-    unpack(const Parcel &parcel, ParticleArrays &p, const unsigned int row)
-    {
-      p.type[row] = parcel.type;
-      p.mass[row] = parcel.mass;
-      std::memcpy(static_cast<void *>(&p.body[row]), parcel.body.data(), sizeof(Body));
-      p.load[row].quanta = parcel.load;
-      for (unsigned int d = 0; d < 3; ++d)
-        p.external_force[row][d] = parcel.external_force[d];
-    }
 
     // One array at a time, so that little is there twice. Rows that come from
     // elsewhere are left to be filled in.

@@ -1,6 +1,6 @@
 #include <graupel/simulation/packed_bed.h>
 
-#include <ctime>
+#include <sstream>
 
 namespace graupel
 {
@@ -10,16 +10,15 @@ namespace graupel
   PackedBed::run_state() const
   {
     RunState state;
-    state.identity     = identity_of_run(parameters);
-    state.time         = time;
-    state.next_output  = next_output;
-    state.bed          = summary.bed;
-    state.cases        = summary.cases;
-    state.ledger       = summary.ledger;
-    state.costs        = summary.costs;
-    state.wall_seconds = Progress::steady_seconds() - started;
-    state.cpu_seconds  = mpi::sum(
-      cpu_before + static_cast<double>(std::clock()) / CLOCKS_PER_SEC, communicator);
+    state.identity             = identity_of_run(parameters);
+    state.time                 = time;
+    state.next_output          = next_output;
+    state.bed                  = summary.bed;
+    state.cases                = summary.cases;
+    state.ledger               = summary.ledger;
+    state.costs                = summary.costs;
+    state.wall_seconds         = Progress::steady_seconds() - started;
+    state.cpu_seconds          = mpi::sum(cpu_seconds(), communicator);
     state.costs.particle_steps = mpi::sum(summary.costs.particle_steps, communicator);
     state.costs.contact_steps  = mpi::sum(summary.costs.contact_steps, communicator);
     state.written              = files.written();

@@ -75,8 +75,8 @@ TEST(DemState, GoesOnBitByBitOnAnyNumberOfRanks)
 TEST(DemState, OfTypesThatAreNotThereIsRefused)
 {
   DemState           state;
-  DemState::Particle particle{};
-  particle.type = 7;
+  DemState::Particle particle;
+  particle.parcel.type = 7;
   state.particles.push_back(particle);
   SmallColumn column(SmallColumn::parameters());
   EXPECT_THROW(column.dem.restore(state), std::runtime_error);

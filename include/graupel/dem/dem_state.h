@@ -2,9 +2,9 @@
 #define graupel_dem_dem_state_h
 
 #include <graupel/dem/loose_contact.h>
+#include <graupel/dem/parcel.h>
 
 #include <array>
-#include <string>
 #include <vector>
 
 namespace graupel
@@ -15,20 +15,16 @@ namespace graupel
    */
   struct DemState
   {
-    /** A particle; see ParticleArrays. */
     struct Particle
     {
-      std::int64_t                id   = 0;
-      unsigned char               type = 0;
-      std::array<double, 16>      body;           // as Body
-      std::array<std::int64_t, 8> load;           // [quanta]
-      std::array<double, 3>       external_force; // [N]
+      std::int64_t id = 0;
+      Parcel       parcel;
 
       template <class Archive>
       void
       serialize(Archive &archive, const unsigned int)
       {
-        archive &id &type &body &load &external_force;
+        archive &id &parcel;
       }
     };
 

@@ -44,6 +44,9 @@ namespace graupel
     // What a cell counts while there is no fluid, in particles.
     static constexpr double share_of_empty_cell = 0.02;
 
+    // Of this rank; on the first one with that of the run that this one resumes [s].
+    double cpu_seconds() const;
+
     void balance_if_due();
     void start_fluid();
     void fill();
