@@ -11,6 +11,7 @@ from .style import BLACK, BLUE, GREY, PERCENT, VERMILLION, new_figure, render
 
 # What a study varies, by the column that changes from level to level.
 SIZES = {
+    "scale": "scale of the particles [-]",
     "cell_size": "representative cell size [m]",
     "filter_length": "filter length [m]",
     "time_step": "time step [s]",
@@ -25,6 +26,8 @@ NUMBERS = (
     "filter_length",
     "extrapolated",
     "grid_convergence_index",
+    "scale",
+    "standard_error",
 )
 
 
@@ -41,7 +44,7 @@ def read_study(path):
 
 def what_varies(rows):
     """The column of sizes that differs between the levels."""
-    for key in ("time_step", "filter_length", "cell_size"):
+    for key in ("scale", "time_step", "filter_length", "cell_size"):
         if len({row[key] for row in rows}) > 1:
             return key
     return "cell_size"
@@ -70,14 +73,29 @@ def error_figure(quantity, rows, key):
 
 
 def value_figure(quantity, rows, key):
-    """A quantity against size, with Richardson's value and the grid-convergence index."""
+    """A quantity against size, with what it is extrapolated to and the error of that."""
     figure = new_figure(height=3.4)
     axes = figure.subplots()
     size = np.array([row[key] for row in rows])
     value = np.array([row["value"] for row in rows])
     axes.plot(size, value, "o-", color=BLUE, label="computed")
     last = rows[-1]
-    if last["extrapolated"] is not None:
+    if key == "scale":
+        axes.errorbar(
+            size, value, yerr=[row["standard_error"] for row in rows], fmt="none", color=BLUE
+        )
+        if last["extrapolated"] is not None:
+            spread = abs(last["extrapolated"]) * last["grid_convergence_index"]
+            axes.errorbar(
+                [1.0],
+                [last["extrapolated"]],
+                yerr=[spread],
+                fmt="D",
+                color=VERMILLION,
+                capsize=4,
+                label="extrapolated to the original particles",
+            )
+    elif last["extrapolated"] is not None:
         spread = abs(last["value"]) * (last["grid_convergence_index"] or 0.0)
         axes.errorbar(
             [size[-1]], [value[-1]], yerr=[spread], color=BLACK, capsize=4, label="GCI (1.25)"
@@ -101,8 +119,8 @@ def table(rows, key):
     """The levels of one quantity as HTML."""
     header = "".join(
         f"<th>{name}</th>"
-        for name in ("level", "cells", SIZES[key], "value", "error or change", "order")
-        + ("extrapolated", "GCI [%]")
+        for name in ("level", "cells", SIZES[key], "value", "error or change", "order", "extrapolated")
+        + ("error of that [%]" if key == "scale" else "GCI [%]",)
     )
     lines = []
     for row in rows:

@@ -12,6 +12,33 @@ namespace graupel
     constexpr unsigned int bisections = 60;
     // Changes below this part of the value are round-off or solver tolerance.
     constexpr double negligible = 1e-13;
+
+    // Weight of computation @p k at the size @p to in the polynomial through those from
+    // the number @p first on.
+    double
+    lagrange_weight(const std::vector<Computation> &computations,
+                    const std::size_t               first,
+                    const std::size_t               k,
+                    const double                    to)
+    {
+      double weight = 1.;
+      for (std::size_t j = first; j < computations.size(); ++j)
+        if (j != k)
+          weight *=
+            (to - computations[j].size) / (computations[k].size - computations[j].size);
+      return weight;
+    }
+
+    double
+    polynomial_value(const std::vector<Computation> &computations,
+                     const std::size_t               first,
+                     const double                    to)
+    {
+      double value = 0.;
+      for (std::size_t k = first; k < computations.size(); ++k)
+        value += lagrange_weight(computations, first, k, to) * computations[k].value;
+      return value;
+    }
   } // namespace
 
   GridConvergence
@@ -49,6 +76,28 @@ namespace graupel
     if (size > 0.)
       result.index = factor_of_safety * result.relative_change / growth;
     return result;
+  }
+
+  Estimate
+  extrapolate(const std::vector<Computation> &computations,
+              const std::vector<double>      &standard_errors,
+              const double                    to)
+  {
+    if (computations.size() < 2 || computations.size() != standard_errors.size())
+      throw std::invalid_argument("An extrapolation needs two computations or more, each "
+                                  "with its error.");
+    for (std::size_t k = 1; k < computations.size(); ++k)
+      if (computations[k].size == computations[k - 1].size)
+        throw std::invalid_argument("Two computations have the same size.");
+    const double value  = polynomial_value(computations, 0, to);
+    const double form   = value - polynomial_value(computations, 1, to);
+    double       square = form * form;
+    for (std::size_t k = 0; k < computations.size(); ++k)
+      {
+        const double part = lagrange_weight(computations, 0, k, to) * standard_errors[k];
+        square += part * part;
+      }
+    return {value, std::sqrt(square)};
   }
 
   std::optional<double>

@@ -18,6 +18,11 @@ namespace graupel
       return values;
     }
 
+    // The surface of the bed lies between these parts of the mean solid fraction.
+    constexpr double outside = 0.4, inside = 0.6;
+    // Not even spheres in the densest order leave less void [-].
+    constexpr double densest = 0.26;
+
     [[noreturn]] void
     fail_at(const dealii::Point<3> &position, const std::string &reason)
     {
@@ -47,6 +52,13 @@ namespace graupel
       "deviation 1.41 times this length. auto makes the standard deviation one "
       "diameter of a simulated particle, 0 is a plain deposit on the nearest "
       "nodes [m].");
+    prm.add_parameter(
+      "bed surface",
+      bed_surface,
+      "Where the filter smears the surface of a bed: sharp evaluates the drag law at the "
+      "solid fraction within the bed, as if the bed ended at once; smeared at the one of "
+      "the filter, which costs a bed 1.1 standard deviations of its length.",
+      dealii::Patterns::Selection("sharp|smeared"));
     prm.leave_subsection();
   }
 
@@ -86,10 +98,12 @@ namespace graupel
 
   Exchange::Exchange(const double                   filter_length,
                      const bool                     shares_pressure,
+                     const LawVoidFraction         &law_void_fraction,
                      const std::vector<DragOfType> &drags,
                      const NodalSpace              &nodes,
                      CostSheet                     &costs)
-    : drags(drags)
+    : law(law_void_fraction)
+    , drags(drags)
     , nodes(nodes)
     , costs(costs)
     , filter(nodes, filter_length)
@@ -97,8 +111,8 @@ namespace graupel
     , result(nodes)
   {
     result.shares_pressure = shares_pressure;
-    nodes.initialize(solid_fraction);
-    nodes.initialize(scratch);
+    for (NodalVector *field : {&solid_fraction, &scratch, &bed, &smooth_bed})
+      nodes.initialize(*field);
     for (NodalVectorField *field : {&interstitial, &smooth_velocity, &smooth_gradient})
       for (NodalVector &component : *field)
         {
@@ -160,6 +174,46 @@ namespace graupel
     volume_error = in_particles > 0. ? std::abs(on_mesh / in_particles - 1.) : 0.;
   }
 
+  std::vector<double>
+  Exchange::surface_factors(const std::vector<double> &alpha)
+  {
+    double solid = 0.;
+    for (const double a : alpha)
+      solid += 1. - a;
+    const MPI_Comm communicator = nodes.mesh.communicator();
+    solid                       = dealii::Utilities::MPI::sum(solid, communicator);
+    const double n =
+      dealii::Utilities::MPI::sum(static_cast<double>(alpha.size()), communicator);
+    const double mean = std::max(solid / std::max(1., n), 1e-6);
+
+    for (unsigned int k = 0; k < bed.locally_owned_size(); ++k)
+      {
+        const double share   = solid_fraction.local_element(k) / mean;
+        bed.local_element(k) = std::clamp((share - outside) / (inside - outside), 0., 1.);
+      }
+    bed.update_ghost_values();
+    filter.smooth(smooth_bed, bed);
+
+    std::vector<double> chi, smooth_chi;
+    transfer.sample(chi, bed);
+    transfer.sample(smooth_chi, smooth_bed);
+    for (unsigned int row = 0; row < chi.size(); ++row)
+      chi[row] = smooth_chi[row] > 0. ? std::max(1., chi[row] / smooth_chi[row]) : 1.;
+    return chi;
+  }
+
+  std::vector<double>
+  Exchange::law_void_fractions(const std::vector<double> &alpha)
+  {
+    std::vector<double> factor(alpha.size(), 1.);
+    if (law.sharp_surface)
+      factor = surface_factors(alpha);
+    for (unsigned int row = 0; row < alpha.size(); ++row)
+      factor[row] = std::max(1. - (1. - alpha[row]) * factor[row] * law.solid_ratio,
+                             std::min(alpha[row], densest));
+    return factor;
+  }
+
   void
   Exchange::deposit_drag(const ParticleArrays &particles)
   {
@@ -169,6 +223,7 @@ namespace graupel
     transfer.sample(alpha, result.void_fraction);
     for (unsigned int i = 0; i < 3; ++i)
       transfer.sample(velocity[i], smooth_velocity[i]);
+    const std::vector<double> law_alpha = law_void_fractions(alpha);
 
     beta.resize(n);
     for (unsigned int row = 0; row < n; ++row)
@@ -179,8 +234,11 @@ namespace graupel
         try
           {
             const auto &[drag, radius] = drags[particles.type[row]];
-            beta[row] =
-              drag.beta(alpha[row], slip.norm(), particles.body[row].radius / radius);
+            const double ratio         = alpha[row] / law_alpha[row];
+            beta[row]                  = ratio * ratio *
+                        drag.beta(law_alpha[row],
+                                  slip.norm() * ratio,
+                                  particles.body[row].radius / radius);
             if (!result.shares_pressure)
               beta[row] /= alpha[row];
           }

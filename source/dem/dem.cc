@@ -30,12 +30,31 @@ namespace graupel
     }
 
     double
+    translational_energy(const ParticleArrays &p, const unsigned int i)
+    {
+      return 0.5 * p.mass[i] * p.body[i].velocity.norm_square();
+    }
+
+    double
     kinetic_energy(const ParticleArrays &p, const unsigned int i)
     {
       const double r = p.body[i].radius;
-      return 0.5 * p.mass[i] *
-             (p.body[i].velocity.norm_square() +
-              0.4 * r * r * p.body[i].spin.norm_square());
+      return translational_energy(p, i) +
+             0.2 * p.mass[i] * r * r * p.body[i].spin.norm_square();
+    }
+
+    // Mean over the particles of all ranks, the same on any number of ranks.
+    template <class Quantity>
+    double
+    mean(const ParticleArrays &p, const Quantity &quantity, const MPI_Comm communicator)
+    {
+      double largest = 0.;
+      for (unsigned int i = 0; i < p.n_owned; ++i)
+        largest = std::max(largest, quantity(p, i));
+      ExactSum sum(mpi::max(largest, communicator));
+      for (unsigned int i = 0; i < p.n_owned; ++i)
+        sum.add(quantity(p, i));
+      return sum.total(communicator) / std::max(1u, mpi::sum(p.n_owned, communicator));
     }
   } // namespace
 
@@ -418,13 +437,13 @@ namespace graupel
   double
   Dem::mean_kinetic_energy() const
   {
-    double largest = 0.;
-    for (unsigned int i = 0; i < arrays.n_owned; ++i)
-      largest = std::max(largest, kinetic_energy(arrays, i));
-    ExactSum sum(mpi::max(largest, communicator()));
-    for (unsigned int i = 0; i < arrays.n_owned; ++i)
-      sum.add(kinetic_energy(arrays, i));
-    return sum.total(communicator()) / std::max(1u, n_global());
+    return mean(arrays, kinetic_energy, communicator());
+  }
+
+  double
+  Dem::mean_translational_energy() const
+  {
+    return mean(arrays, translational_energy, communicator());
   }
 
   double

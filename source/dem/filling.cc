@@ -123,7 +123,7 @@ namespace graupel
                                    end - lower > 2.2 * particles.largest_radius()),
             "Filling/upper",
             "the section to fill must lie in the vessel and be higher than a particle");
-    if (method != "list")
+    if (method != "list" && start_from.empty())
       check_amount(cylinder, particles);
   }
 

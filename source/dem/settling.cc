@@ -28,7 +28,8 @@ namespace graupel
       "kinetic energy",
       kinetic_energy,
       "Mean kinetic energy per particle below which the bed is at rest, if the "
-      "speed is low as well [J].");
+      "speed is low as well; spin does not count, as a sphere may spin on the bottom "
+      "for long [J].");
     prm.add_parameter(
       "speed",
       speed,
@@ -100,7 +101,7 @@ namespace graupel
     dem.advance(input.interval);
     elapsed += input.interval;
     return dem.maximum_speed() < input.speed &&
-           dem.mean_kinetic_energy() < input.kinetic_energy;
+           dem.mean_translational_energy() < input.kinetic_energy;
   }
 
   bool
@@ -183,7 +184,7 @@ namespace graupel
            << ", the target " << input.target_void_fraction
            << ". Allow more time, a higher target, or a lower packing friction.";
     else
-      text << "mean kinetic energy " << dem.mean_kinetic_energy() << " J of "
+      text << "mean kinetic energy " << dem.mean_translational_energy() << " J of "
            << input.kinetic_energy << " J, fastest particle " << dem.maximum_speed()
            << " m/s of " << input.speed << " m/s. Allow more time or higher limits.";
     throw DemError(text.str());

@@ -77,9 +77,9 @@ namespace graupel
       archive &state.wall_seconds &state.cpu_seconds;
       archive &state.written.fields &state.written.particles &state.written.contacts;
       archive &state.has_fluid &state.fluid_time &state.in_case;
-      archive &state.velocity &state.case_begin;
-      std::size_t              n = state.case_rows.size();
-      archive                 &n;
+      archive &state.velocity &state.case_begin &state.ramp_from;
+      std::size_t                                n = state.case_rows.size();
+      archive                                   &n;
       state.case_rows.resize(n);
       for (MonitorRow &row : state.case_rows)
         serialize_row(archive, row);

@@ -5,10 +5,12 @@
 namespace graupel
 {
   CoupledFlow::CoupledFlow(const RunParameters &parameters,
+                           const double         solid_ratio,
                            VesselMesh          &mesh,
                            Dem                 &dem,
                            CostSheet           &costs)
     : parameters(parameters)
+    , solid_ratio(solid_ratio)
     , mesh(mesh)
     , dem(dem)
     , costs(costs)
@@ -32,11 +34,13 @@ namespace graupel
     for (const auto &type : parameters.dem.types())
       drags.push_back({Drag(parameters.drag, parameters.fluid, type.diameter, type.scale),
                        0.5 * type.scale * type.diameter});
-    particles_and_fluid.emplace(parameters.filter_length(),
-                                parameters.coupling.model == "A",
-                                drags,
-                                *node_space,
-                                costs);
+    particles_and_fluid.emplace(
+      parameters.filter_length(),
+      parameters.coupling.model == "A",
+      LawVoidFraction{parameters.coupling.bed_surface == "sharp", solid_ratio},
+      drags,
+      *node_space,
+      costs);
   }
 
   void

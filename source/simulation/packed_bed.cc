@@ -1,3 +1,4 @@
+#include <graupel/simulation/original_bed.h>
 #include <graupel/simulation/packed_bed.h>
 
 #include <ctime>
@@ -104,7 +105,8 @@ namespace graupel
     const double substeps = parameters.sweep.time_step / dem.substep();
     cell_share            = particle_substeps_of_cell / std::max(1., substeps);
     dem.balance(cell_share);
-    coupled.emplace(parameters, mesh, dem, summary.costs);
+    coupled.emplace(
+      parameters, summary.bed.original_solid_ratio, mesh, dem, summary.costs);
     for (unsigned int pass = 0; pass < parameters.adaption.initial_passes; ++pass)
       {
         coupled->look_at_bed();
@@ -179,6 +181,9 @@ namespace graupel
                       parameters.cylinder.diameter,
                       parameters.cylinder.height};
     progress.say(describe_bed(summary.bed, dem));
+    if (!parameters.sweep.superficial_velocities.empty())
+      summary.bed.original_solid_ratio =
+        original_solid_ratio(parameters, bed, progress, summary.costs, communicator);
     const CostSheet::Scope timing(summary.costs, CostSheet::output);
     const DemState         particles = dem.state();
     if (dealii::Utilities::MPI::this_mpi_process(communicator) == 0)

@@ -26,6 +26,7 @@ namespace graupel
     state.fluid_time           = coupled ? coupled->fluid().time() : 0.;
     state.in_case              = in_case;
     state.velocity             = case_velocity;
+    state.ramp_from            = ramp_from;
     state.case_begin           = case_begin;
     state.case_rows            = case_rows;
     return state;
@@ -99,13 +100,15 @@ namespace graupel
     progress.say(text.str());
     if (!state.has_fluid)
       return;
-    coupled.emplace(parameters, mesh, dem, summary.costs);
+    coupled.emplace(
+      parameters, summary.bed.original_solid_ratio, mesh, dem, summary.costs);
     coupled->set_superficial_velocity(state.velocity);
     coupled->load(state.fluid_time);
     if (!state.in_case)
       return;
     begin_case(state.velocity);
     case_begin = state.case_begin;
+    ramp_from  = state.ramp_from;
     for (const MonitorRow &row : state.case_rows)
       {
         case_rows.push_back(row);

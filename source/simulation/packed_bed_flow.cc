@@ -10,8 +10,17 @@ namespace graupel
     // Share of the weight that bottom and wall still carry when the bed counts
     // as lifted: at its onset the paper has 0.016 and 0.028 N of 0.5 N.
     constexpr double lifted_load = 0.05;
+    // A void fraction that no random bed of spheres falls below [-].
+    constexpr double densest_bed = 0.3;
     // Part of a case, at its end, over which its numbers are means.
     constexpr double averaged_part = 0.25;
+
+    // A bed whose height changes by more [-] while it is held against the steady flow
+    // has another flow: it is looked for again, so often.
+    constexpr double       unmoved    = 1e-4;
+    constexpr unsigned int most_looks = 5;
+    // The force of a steady flow grows in pieces of this length [s].
+    constexpr double ramp_piece = 5e-3;
 
     // A step of the fluid that fails is tried with its half, so often.
     constexpr unsigned int maximum_halvings = 6;
@@ -50,26 +59,29 @@ namespace graupel
   {
     const unsigned int number = summary.cases.size() + 1;
     const double       wall = Progress::steady_seconds(), cpu = cpu_seconds();
-    const bool         is_still = parameters.sweep.mode == "steady";
-    const double       duration =
-      is_still ? 0.
-                     : parameters.sweep.case_duration(superficial_velocity,
-                                                parameters.cylinder.height);
     std::ostringstream name;
     name << "flow " << number << "/" << parameters.sweep.superficial_velocities.size()
          << ", V_s " << superficial_velocity << " m/s";
-    if (is_still)
-      progress.start_phase(name.str(), 0., parameters.sweep.maximum_solves, "solves");
-    else
-      progress.start_phase(name.str(), 0., duration);
 
+    // A resumed case has begun to move already.
+    bool is_still = parameters.sweep.mode == "steady" ||
+                    (parameters.sweep.mode == "automatic" && !in_case);
     if (!in_case)
       begin_case(superficial_velocity);
     if (is_still)
-      run_steady(number);
-    else
-      run_transient(number, duration);
-    progress.finish_phase();
+      {
+        progress.start_phase(name.str(), 0., parameters.sweep.maximum_solves, "solves");
+        is_still = run_steady(number);
+        progress.finish_phase();
+      }
+    if (!is_still)
+      {
+        const double duration = parameters.sweep.case_duration(
+          superficial_velocity, parameters.cylinder.height);
+        progress.start_phase(name.str(), 0., duration);
+        run_transient(number, duration);
+        progress.finish_phase();
+      }
     in_case = false;
 
     CaseResult result;
@@ -85,13 +97,21 @@ namespace graupel
   void
   PackedBed::begin_case(const double superficial_velocity)
   {
-    in_case       = true;
-    case_begin    = time;
+    in_case    = true;
+    ramp_from  = summary.cases.empty() ? 0. : summary.cases.back().superficial_velocity;
+    case_begin = time;
     case_velocity = superficial_velocity;
     steady        = SteadyMonitor(
       parameters.sweep.steady_window, parameters.sweep.steady_tolerance, dem.weight());
     case_rows.clear();
-    coupled->set_superficial_velocity(superficial_velocity);
+  }
+
+  void
+  PackedBed::set_velocity_on_ramp(const double time_in_case)
+  {
+    const double ramp = parameters.sweep.ramp_time;
+    const double part = ramp > 0. ? std::min(1., time_in_case / ramp) : 1.;
+    coupled->set_superficial_velocity(ramp_from + part * (case_velocity - ramp_from));
   }
 
   void
@@ -100,7 +120,9 @@ namespace graupel
     step_limit = parameters.sweep.time_step;
     while (time - case_begin < duration * (1. - 1e-12))
       {
-        const double step = step_fluid(next_step(duration - (time - case_begin)));
+        const double aim = next_step(duration - (time - case_begin));
+        set_velocity_on_ramp(time - case_begin + aim);
+        const double step = step_fluid(aim);
         adapt_if_due();
         move_particles(step);
         record_monitor(number);
@@ -112,25 +134,72 @@ namespace graupel
       }
   }
 
-  void
+  bool
   PackedBed::run_steady(const unsigned int number)
   {
-    unsigned int n = 0;
-    try
+    const bool   must_rest    = parameters.sweep.mode == "automatic";
+    unsigned int n            = 0;
+    double       force_before = coupled->exchange().total_force()[2];
+    coupled->set_superficial_velocity(case_velocity);
+    for (unsigned int look = 0; look < most_looks; ++look)
       {
-        last_report =
-          coupled->find_steady_state([&](const double) { progress.update(++n); });
+        try
+          {
+            last_report =
+              coupled->find_steady_state([&](const double) { progress.update(++n); });
+          }
+        catch (const SolverFailure &error)
+          {
+            if (!must_rest)
+              fail_with_checkpoint(error);
+            break;
+          }
+        const double height = observables.bed().height;
+        hold_particles(force_before);
+        force_before       = coupled->exchange().total_force()[2];
+        const double shift = std::abs(observables.bed().height / height - 1.);
+        if (must_rest && !is_at_rest())
+          break;
+        if (must_rest && shift > unmoved)
+          continue;
+        std::ostringstream text;
+        text << "steady flow after " << n << " linear systems";
+        progress.say(text.str());
+        record_monitor(number);
+        return true;
       }
-    catch (const SolverFailure &error)
+    progress.say("the bed does not rest against this flow: fluid and particles move");
+    case_begin = time;
+    ramp_from  = case_velocity;
+    return false;
+  }
+
+  // Holds the bed against the force of a steady flow, so that bottom and wall carry what
+  // the fluid leaves them.
+  void
+  PackedBed::hold_particles(const double force_before)
+  {
+    const double ramp  = parameters.sweep.ramp_time;
+    const double force = coupled->exchange().total_force()[2];
+    const auto   n     = static_cast<unsigned int>(std::ceil(ramp / ramp_piece));
+    double       last  = 1.; // factor on the forces now
+    for (unsigned int piece = 1; piece <= n && force > 0.; ++piece)
       {
-        fail_with_checkpoint(error);
+        const double part   = static_cast<double>(piece) / n;
+        const double factor = part + (1. - part) * std::max(0., force_before) / force;
+        for (dealii::Tensor<1, 3> &f : dem.particles().external_force)
+          f *= factor / last;
+        last = factor;
+        move_particles(ramp / n);
       }
-    std::ostringstream text;
-    text << "steady flow after " << n << " linear systems";
-    progress.say(text.str());
-    // So that bottom and wall carry what the fluid leaves them.
     move_particles(parameters.sweep.steady_window);
-    record_monitor(number);
+  }
+
+  bool
+  PackedBed::is_at_rest() const
+  {
+    return dem.maximum_speed() < parameters.settling.speed &&
+           dem.mean_translational_energy() < parameters.settling.kinetic_energy;
   }
 
   double
@@ -243,8 +312,14 @@ namespace graupel
     result.fluid_force        = mean.fluid_force;
     result.weight             = dem.weight();
     result.fluidized = mean.bottom_force + mean.wall_force <= lifted_load * dem.weight();
+    // A bed that has come apart has no height: Ergun's value is then the resting one's.
+    const bool is_whole        = bed.mean_void_fraction > densest_bed;
     result.ergun_pressure_drop = ergun_pressure_drop(
-      parameters.fluid, diameter, bed.mean_void_fraction, velocity, bed.height);
+      parameters.fluid,
+      diameter,
+      is_whole ? bed.mean_void_fraction : summary.bed.mean_void_fraction,
+      velocity,
+      is_whole ? bed.height : summary.bed.height);
     result.deviation_from_ergun = result.pressure_drop / result.ergun_pressure_drop - 1.;
 
     const FlowFields fields{coupled->nodes(),

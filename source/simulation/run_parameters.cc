@@ -25,6 +25,7 @@ namespace graupel
     fluid.declare(prm);
     drag.declare(prm);
     coupling.declare(prm);
+    original_bed.declare(prm);
     flow.declare(prm);
     sweep.declare(prm);
     output.declare(prm);
@@ -43,6 +44,7 @@ namespace graupel
     settling.check();
     fluid.check();
     coupling.check();
+    original_bed.check();
     drag.check(dem.particles.scale, dem.particles.diameter);
     flow.check();
     sweep.check();

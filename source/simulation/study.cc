@@ -12,6 +12,29 @@ namespace graupel
 {
   namespace
   {
+    std::string
+    text_of(const double value)
+    {
+      std::ostringstream text;
+      text << std::setprecision(17) << value;
+      return text.str();
+    }
+
+    // The same mass of particles of another scale; the filter follows them.
+    void
+    set_scale(RunParameters &parameters, const double scale)
+    {
+      const double growth = scale / parameters.dem.particles.scale;
+      auto        &count  = parameters.filling.count;
+      count = static_cast<unsigned int>(std::lround(count / std::pow(growth, 3)));
+      if (parameters.coupling.filter_length != "auto")
+        parameters.coupling.filter_length =
+          text_of(std::stod(parameters.coupling.filter_length) * growth);
+      for (ParticleType &type : parameters.dem.particles.further_types)
+        type.scale *= growth;
+      parameters.dem.particles.scale = scale;
+    }
+
     RunParameters
     at_level(RunParameters parameters, const double value)
     {
@@ -22,12 +45,10 @@ namespace graupel
         }
       else if (parameters.study.vary == "time step")
         parameters.sweep.time_step = value;
+      else if (parameters.study.vary == "scale")
+        set_scale(parameters, value);
       else if (parameters.study.vary == "filter length")
-        {
-          std::ostringstream text;
-          text << std::setprecision(17) << value;
-          parameters.coupling.filter_length = text.str();
-        }
+        parameters.coupling.filter_length = text_of(value);
       return parameters;
     }
 
@@ -36,6 +57,7 @@ namespace graupel
     {
       return vary == "time step"       ? level.time_step
              : vary == "filter length" ? level.filter_length
+             : vary == "scale"         ? level.scale
                                        : level.cell_size;
     }
 
@@ -54,14 +76,16 @@ namespace graupel
     {
       std::ofstream file(file_name);
       file << "level,cells,cell_size,time_step,quantity,value,error_or_change,"
-              "observed_order,filter_length,extrapolated,grid_convergence_index\n";
+              "observed_order,filter_length,extrapolated,grid_convergence_index,scale,"
+              "standard_error\n";
       for (const StudyRow &row : rows)
         file << row.level << ',' << row.result.cells << ','
              << number(row.result.cell_size) << ',' << number(row.result.time_step) << ','
              << row.measurement.quantity << ',' << number(row.measurement.value) << ','
              << number(row.error_or_change) << ',' << number(row.observed_order) << ','
              << number(row.result.filter_length) << ',' << number(row.extrapolated) << ','
-             << number(row.index) << '\n';
+             << number(row.index) << ',' << row.result.scale << ','
+             << row.measurement.standard_error << '\n';
       if (!file)
         throw std::runtime_error("The file " + file_name + " cannot be written.");
     }
@@ -85,12 +109,13 @@ namespace graupel
           table.add_value("cells", row.result.cells);
           table.add_value("cell size", shown(row.result.cell_size));
           table.add_value("time step", shown(row.result.time_step));
+          table.add_value("scale", shown(row.result.scale));
           table.add_value("value", shown(row.measurement.value));
           table.add_value("change", shown(row.error_or_change));
           table.add_value("order",
                           row.oscillates ? "oscillates" : shown(row.observed_order));
           table.add_value("extrapolated", shown(row.extrapolated));
-          table.add_value("GCI", shown(row.index));
+          table.add_value("error", shown(row.index));
         }
       std::ostringstream text;
       table.write_text(text);
@@ -135,6 +160,56 @@ namespace graupel
     return rows;
   }
 
+  std::vector<StudyRow>
+  evaluate_ladder(const std::vector<LevelResult> &levels)
+  {
+    std::vector<StudyRow> rows;
+    if (levels.empty())
+      return rows;
+    for (unsigned int m = 0; m < levels[0].measurements.size(); ++m)
+      {
+        std::vector<Computation> computations;
+        std::vector<double>      errors;
+        for (unsigned int level = 0; level < levels.size(); ++level)
+          {
+            const Measurement &measured = levels[level].measurements[m];
+            StudyRow           row{level + 1, levels[level], measured, {}, {}, {}, {}};
+            if (level >= 1)
+              row.error_or_change =
+                (measured.value - computations.back().value) / std::abs(measured.value);
+            computations.push_back({levels[level].scale, measured.value});
+            errors.push_back(measured.standard_error);
+            if (level >= 2)
+              {
+                const Estimate at_one = extrapolate(computations, errors, 1.);
+                row.extrapolated      = at_one.value;
+                row.index             = at_one.error / std::abs(at_one.value);
+              }
+            rows.push_back(row);
+          }
+      }
+    return rows;
+  }
+
+  LevelResult
+  mean_of(const std::vector<LevelResult> &repetitions)
+  {
+    const double n      = repetitions.size();
+    LevelResult  result = repetitions.at(0);
+    for (unsigned int m = 0; m < result.measurements.size(); ++m)
+      {
+        double sum = 0., squares = 0.;
+        for (const LevelResult &one : repetitions)
+          sum += one.measurements[m].value;
+        for (const LevelResult &one : repetitions)
+          squares += std::pow(one.measurements[m].value - sum / n, 2);
+        result.measurements[m].value = sum / n;
+        result.measurements[m].standard_error =
+          n > 1. ? std::sqrt(squares / (n - 1.) / n) : 0.;
+      }
+    return result;
+  }
+
   void
   run_study(const RunParameters &parameters,
             const RunLevel      &run_level,
@@ -155,9 +230,19 @@ namespace graupel
         progress.say(title.str());
         try
           {
-            levels.push_back(run_level(
-              study.is_wanted() ? at_level(parameters, study.values[level]) : parameters,
-              directory + "/level-" + std::to_string(level + 1)));
+            std::vector<LevelResult> beds;
+            for (unsigned int bed = 0; bed < study.repetitions; ++bed)
+              {
+                RunParameters own = study.is_wanted()
+                                      ? at_level(parameters, study.values[level])
+                                      : parameters;
+                own.filling.seed += bed;
+                beds.push_back(
+                  run_level(own,
+                            directory + "/level-" + std::to_string(level + 1) +
+                              (bed > 0 ? "-" + std::to_string(bed + 1) : "")));
+              }
+            levels.push_back(mean_of(beds));
             sizes.push_back(size_of(levels.back(), study.vary));
           }
         catch (const std::exception &error)
@@ -169,7 +254,8 @@ namespace graupel
                          " has failed and is left out: " + error.what());
           }
       }
-    const auto rows = evaluate_study(levels, sizes);
+    const auto rows =
+      study.vary == "scale" ? evaluate_ladder(levels) : evaluate_study(levels, sizes);
     if (dealii::Utilities::MPI::this_mpi_process(communicator) == 0)
       write_rows(directory + "/study.csv", rows);
     progress.say(table_of(rows));

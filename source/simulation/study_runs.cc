@@ -23,6 +23,9 @@ namespace graupel
       summary.cross_section * parameters.cylinder.height, summary.cells);
     result.time_step     = parameters.sweep.time_step;
     result.filter_length = parameters.filter_length();
+    result.scale         = parameters.dem.particles.scale;
+    result.measurements.push_back(
+      {"mean void fraction at rest [-]", summary.bed.mean_void_fraction});
     for (const CaseResult &flow : summary.cases)
       {
         std::ostringstream at;

@@ -25,7 +25,8 @@ namespace graupel
               {"mean_coordination_number", bed.mean_coordination_number},
               {"original_diameter", bed.original_diameter},
               {"vessel_diameter", bed.vessel_diameter},
-              {"vessel_height", bed.vessel_height}};
+              {"vessel_height", bed.vessel_height},
+              {"original_solid_ratio", bed.original_solid_ratio}};
     }
 
     Json

@@ -25,8 +25,9 @@ namespace graupel
       mode,
       "transient: fluid and particles move through time; steady: each case is the steady "
       "flow through the resting bed, found in some ten linear systems, after which the "
-      "particles are held against it for one steady window. For beds below their onset.",
-      dealii::Patterns::Selection("transient|steady"));
+      "particles are held against it for one steady window; automatic: steady while the "
+      "bed rests against the flow, and transient from where it does not.",
+      dealii::Patterns::Selection("transient|steady|automatic"));
     prm.add_parameter("maximum solves",
                       maximum_solves,
                       "Linear systems after which a steady flow has not been found [-].");
@@ -35,6 +36,12 @@ namespace graupel
       time_step,
       "Step of the fluid, at most; particles take their own smaller substeps within it "
       "[s].");
+    prm.add_parameter(
+      "ramp time",
+      ramp_time,
+      "Time in which the superficial velocity, or in steady flow its force on the "
+      "particles, goes from that of one case to the next at the beginning of a case. A "
+      "bed that is unloaded at once swings, and loosens; 0 for a jump [s].");
     prm.add_parameter("Courant number",
                       courant_number,
                       "Largest speed times step over cell size: the step is shortened to "
@@ -85,6 +92,7 @@ namespace graupel
             "Flow/steady window",
             "must hold at least two of Flow/time step");
     require(maximum_time > 0., "Flow/maximum time", "must be positive");
+    require(ramp_time >= 0., "Flow/ramp time", "must not be negative; 0 is a jump");
     require(courant_number >= 0.,
             "Flow/Courant number",
             "must not be negative; 0 switches it off, 1 to 5 is usual");

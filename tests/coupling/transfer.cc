@@ -253,6 +253,7 @@ namespace
           0.01 * RandomPacking::noise(packing.dem.particles().id[row] + 0.1 * i);
     Exchange   exchange(3e-3,
                       shares_pressure,
+                      {},
                       {{Drag({}, fluid, 1.6e-3, 2.), 1.6e-3}},
                       packing.nodes,
                       packing.costs);

@@ -2,6 +2,7 @@
 #define graupel_base_convergence_h
 
 #include <optional>
+#include <vector>
 
 namespace graupel
 {
@@ -41,6 +42,24 @@ namespace graupel
   GridConvergence grid_convergence(const Computation &fine,
                                    const Computation &medium,
                                    const Computation &coarse);
+
+  /** A value with its error, one standard deviation where it is statistical. */
+  struct Estimate
+  {
+    double value;
+    double error;
+  };
+
+  /**
+   * The value at the size @p to of the polynomial through two or more computations, with
+   * their @p standard_errors propagated (by Lagrange's weights) and, added in
+   * quadrature, the difference to the polynomial without the first, coarsest one, as
+   * the error of the form. Throws std::invalid_argument for fewer than two, unequal
+   * numbers of both, or sizes that repeat.
+   */
+  Estimate extrapolate(const std::vector<Computation> &computations,
+                       const std::vector<double>      &standard_errors,
+                       const double                    to);
 
   /** Order from two errors whose exact value 0 is known [-]; absent for zero errors. */
   std::optional<double> observed_order(const Computation &fine,

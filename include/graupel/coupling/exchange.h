@@ -27,6 +27,9 @@ namespace graupel
     std::string model = "A";
     /** A length [m], or "auto": the simulated diameter / sqrt(2). */
     std::string filter_length = "auto";
+    /** "sharp": the drag law does not see that the filter smears the bed's surface;
+     * "smeared": it does. */
+    std::string bed_surface = "sharp";
 
     /** Declares the section "Coupling". */
     void declare(dealii::ParameterHandler &prm);
@@ -34,6 +37,15 @@ namespace graupel
 
     /** The filter length in use [m]. */
     double length(const double simulated_diameter) const;
+  };
+
+  /** At which void fraction the drag law is evaluated. */
+  struct LawVoidFraction
+  {
+    /** Whether the filter's smearing of surfaces of the bed is undone. */
+    bool sharp_surface = true;
+    /** Solid fraction of the bed that is meant over that of the simulated one [-]. */
+    double solid_ratio = 1.;
   };
 
   /**
@@ -51,6 +63,18 @@ namespace graupel
    * and the pressure gradient acts on the fluid alone; in a uniform bed both have the
    * same pressure gradient.
    * Source: Gidaspow, Multiphase Flow and Fluidization (1994), ch. 2.
+   *
+   * The void fraction of the law, alpha', may be another than that of the flow, alpha:
+   * undisturbed by the filter where that smears the surface of the bed, or that of
+   * another bed which the simulated one stands for (LawVoidFraction). The pressure
+   * gradient is then the one at alpha' and the same superficial slip w = alpha |u - v|:
+   *
+   *   beta_p = beta_law(alpha', w / alpha') (alpha / alpha')^2.
+   *
+   * The surface: chi is 1 where the solid fraction is above half of its mean over the
+   * particles, and 0 below; 1 - alpha' = (1 - alpha) max(1, chi / S chi), a normalised
+   * convolution. Source of those: Knutsson & Westin, CVPR (1993),
+   * doi:10.1109/CVPR.1993.341081.
    */
   class Exchange
   {
@@ -59,6 +83,7 @@ namespace graupel
      * outlive this object. */
     Exchange(const double                   filter_length,
              const bool                     shares_pressure,
+             const LawVoidFraction         &law_void_fraction,
              const std::vector<DragOfType> &drags,
              const NodalSpace              &nodes,
              CostSheet                     &costs);
@@ -123,9 +148,14 @@ namespace graupel
 
   private:
     void deposit_void_fraction(const ParticleArrays &particles);
-    void deposit_drag(const ParticleArrays &particles);
+    // Of the law at each own particle, from that of the flow.
+    std::vector<double> law_void_fractions(const std::vector<double> &alpha);
+    // chi / S chi, at least 1, at each own particle: above 1 at the surface.
+    std::vector<double> surface_factors(const std::vector<double> &alpha);
+    void                deposit_drag(const ParticleArrays &particles);
     void keep_ledger(const FlowSolver &flow, const NodalVectorField &pressure_gradient);
 
+    const LawVoidFraction         law;
     const std::vector<DragOfType> drags;
     const NodalSpace             &nodes;
     CostSheet                    &costs;
@@ -133,6 +163,7 @@ namespace graupel
     ParticleTransfer              transfer;
     Medium                        result;
     NodalVector                   solid_fraction, scratch;
+    NodalVector                   bed, smooth_bed; // chi, S chi [-]
 
     NodalVectorField     interstitial;    // u [m/s]
     NodalVectorField     smooth_velocity; // S u [m/s]

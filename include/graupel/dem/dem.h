@@ -239,6 +239,8 @@ namespace graupel
 
     /** Kinetic energy, translation and rotation, mean per particle [J]. Collective. */
     double mean_kinetic_energy() const;
+    /** Of the translation alone, mean per particle [J]. Collective. */
+    double mean_translational_energy() const;
     /** Largest speed of a center [m/s]. Collective. */
     double maximum_speed() const;
     /** Contacts with other particles, mean per particle [-]. Collective. */

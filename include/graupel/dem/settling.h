@@ -9,7 +9,8 @@ namespace graupel
   /** When a bed counts as settled, and how dense it shall be. */
   struct SettlingParameters
   {
-    /** Mean kinetic energy per particle below which the bed is at rest [J]. */
+    /** Mean kinetic energy of the centers per particle below which the bed is at rest
+     * [J]. */
     double kinetic_energy = 1e-12;
     /** Speed of the fastest particle below which the bed is at rest [m/s]. */
     double speed = 2e-3;

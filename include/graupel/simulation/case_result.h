@@ -72,6 +72,8 @@ namespace graupel
     double       mean_coordination_number = 0.; // [-]
     double       vessel_diameter          = 0.; // [m]
     double       vessel_height            = 0.; // [m]
+    /** Solid fraction at which the drag law is evaluated over that of the bed [-]. */
+    double original_solid_ratio = 1.;
   };
 
   /**

@@ -27,6 +27,7 @@ namespace graupel
     bool                    has_fluid  = false;
     double                  fluid_time = 0.;    // [s]
     bool                    in_case    = false; // within a flow case,
+    double                  ramp_from  = 0.;    // superficial velocity before [m/s]
     double                  velocity   = 0.;    // of this superficial velocity [m/s],
     double                  case_begin = 0.;    // that began then [s]
     std::vector<MonitorRow> case_rows;

@@ -17,8 +17,10 @@ namespace graupel
   class CoupledFlow
   {
   public:
-    /** Still fluid around the particles; all references must outlive this object. */
+    /** Still fluid around the particles; all references must outlive this object.
+     * @p solid_ratio: LawVoidFraction::solid_ratio. */
     CoupledFlow(const RunParameters &parameters,
+                const double         solid_ratio,
                 VesselMesh          &mesh,
                 Dem                 &dem,
                 CostSheet           &costs);
@@ -89,6 +91,7 @@ namespace graupel
     void take_over(std::array<NodalVector, 4> &fields, const double time);
 
     const RunParameters &parameters;
+    const double         solid_ratio;
     VesselMesh          &mesh;
     Dem                 &dem;
     CostSheet           &costs;

@@ -65,12 +65,16 @@ namespace graupel
 
     CaseResult run_case(const double superficial_velocity);
     void       run_transient(const unsigned int number, const double duration);
-    void       run_steady(const unsigned int number);
+    // False, in the mode automatic, if the bed does not rest against the flow.
+    bool       run_steady(const unsigned int number);
+    bool       is_at_rest() const;
     double     next_step(const double remaining) const;
     double     step_fluid(double step);
     void       adapt_mesh();
     void       adapt_if_due();
     void       move_particles(const double step);
+    void       hold_particles(const double force_before);
+    void       set_velocity_on_ramp(const double time_in_case);
     void       record_monitor(const unsigned int number);
     MonitorRow monitor(const std::string &phase) const;
     void       write_fields_if_due();
@@ -100,6 +104,7 @@ namespace graupel
     bool                    in_case       = false;
     double                  case_begin    = 0.; // [s]
     double                  case_velocity = 0.; // [m/s]
+    double                  ramp_from     = 0.; // velocity at its beginning [m/s]
     std::vector<MonitorRow> case_rows;
     double                  started; // wall clock; before that of a resumed run [s]
     double                  cpu_before = 0.; // of the run that this one resumes [s]

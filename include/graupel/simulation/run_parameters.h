@@ -6,6 +6,7 @@
 #include <graupel/dem/settling.h>
 #include <graupel/fluid/manufactured_solution.h>
 #include <graupel/mesh/adaption.h>
+#include <graupel/simulation/original_bed_parameters.h>
 #include <graupel/simulation/study_parameters.h>
 #include <graupel/simulation/sweep_parameters.h>
 
@@ -23,6 +24,7 @@ namespace graupel
     FluidProperties        fluid;
     DragParameters         drag;
     CouplingParameters     coupling;
+    OriginalBedParameters  original_bed;
     FlowParameters         flow;
     SweepParameters        sweep;
     OutputParameters       output;

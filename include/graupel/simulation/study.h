@@ -16,6 +16,8 @@ namespace graupel
     double      value;
     /** Whether it is an error, that is whether the exact value is known to be 0. */
     bool is_error = false;
+    /** Of the mean over several beds; 0 for a single one. */
+    double standard_error = 0.;
   };
 
   /** What one level of a study computed. */
@@ -26,6 +28,7 @@ namespace graupel
     double cell_size     = 0.;
     double time_step     = 0.; // [s]
     double filter_length = 0.; // [m]
+    double scale         = 1.; // [-]
     /** The same quantities in the same order on every level. */
     std::vector<Measurement> measurements;
   };
@@ -56,9 +59,22 @@ namespace graupel
                                        const std::vector<double>      &sizes);
 
   /**
+   * The rows of a ladder of scales, from the largest to the smallest: from the third
+   * level on with the extrapolation to scale 1, whose relative error stands as index.
+   */
+  std::vector<StudyRow> evaluate_ladder(const std::vector<LevelResult> &levels);
+
+  /**
+   * The mean of repeated levels, which measured the same quantities, with standard
+   * errors: s / sqrt(n), the deviation s being estimated with n - 1.
+   */
+  LevelResult mean_of(const std::vector<LevelResult> &repetitions);
+
+  /**
    * A refinement study: runs the same parameters on a list of mesh sizes, filter
-   * lengths or time steps, in the subdirectories level-1, level-2, ... of @p directory,
-   * and writes study.csv there and a table to @p progress. A level that fails is told
+   * lengths, time steps or scales, in the subdirectories level-1, level-2, ... (level-1-2
+   * for its second bed) of @p directory, and writes study.csv there and a table to @p
+   * progress. A level that fails is told
    * and left out. Without anything to vary it is level 1 alone. Collective.
    */
   void run_study(const RunParameters &parameters,

@@ -11,10 +11,12 @@ namespace graupel
   /** What a refinement study varies. */
   struct StudyParameters
   {
-    /** "none", "cell size", "filter length" or "time step". */
+    /** "none", "cell size", "filter length", "time step" or "scale". */
     std::string vary = "none";
-    /** Its values, from the coarsest to the finest [m] or [s]. */
+    /** Its values, from the coarsest to the finest [m], [s] or [-]. */
     std::vector<double> values;
+    /** Beds of different seeds on each level, whose mean counts [-]. */
+    unsigned int repetitions = 1;
 
     bool
     is_wanted() const

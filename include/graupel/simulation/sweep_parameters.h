@@ -13,12 +13,15 @@ namespace graupel
   {
     /** One flow case each, run one after the other on the same bed [m/s]. */
     std::vector<double> superficial_velocities{0.271, 0.320, 0.368, 0.423, 0.476, 0.534};
-    /** "transient", or "steady": each case is the steady flow through the resting bed. */
+    /** "transient"; "steady": each case is the steady flow through the resting bed; or
+     * "automatic": steady as long as the bed rests. */
     std::string mode = "transient";
     /** Linear systems after which a steady flow has not been found [-]. */
     unsigned int maximum_solves = 100;
     /** Step of the fluid, and of the exchange with the particles, at most [s]. */
     double time_step = 5e-3;
+    /** Time in which the superficial velocity goes from one case's to the next [s]. */
+    double ramp_time = 0.1;
     /** Courant number that no step exceeds; 0: none [-]. */
     double courant_number = 0.;
     /** "flow-throughs" or "steady": when a case ends. */

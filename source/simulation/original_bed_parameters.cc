@@ -1,0 +1,71 @@
+#include <graupel/base/parameters.h>
+#include <graupel/simulation/original_bed_parameters.h>
+
+#include <algorithm>
+#include <array>
+
+namespace graupel
+{
+  void
+  OriginalBedParameters::declare(dealii::ParameterHandler &prm)
+  {
+    prm.enter_subsection("Original bed");
+    prm.add_parameter(
+      "void fraction",
+      void_fraction,
+      "Void fraction at which the drag law is evaluated. simulated: that of the "
+      "simulated "
+      "bed. The others correct for scaled particles packing looser than the original "
+      "ones, so that the bed drops the pressure of the original bed of the same mass: "
+      "correlation (ratio of Benyahia and O'Neill's values for both diameters), measured "
+      "(a short bed of original particles is settled first), or the mean void fraction "
+      "of the original bed as a number [-].");
+    prm.add_parameter("measured height",
+                      measured_height,
+                      "Height of the bed of original particles that is measured [m].");
+    prm.add_parameter(
+      "target void fraction",
+      target_void_fraction,
+      "Mean void fraction that the measured bed is tapped to if it is looser; 0 to take "
+      "it as it comes [-].");
+    prm.leave_subsection();
+  }
+
+  std::optional<double>
+  OriginalBedParameters::number() const
+  {
+    const std::array<std::string, 3> words{"simulated", "correlation", "measured"};
+    if (std::find(words.begin(), words.end(), void_fraction) != words.end())
+      return {};
+    std::size_t  end   = 0;
+    const double value = std::stod(void_fraction, &end);
+    if (end != void_fraction.size())
+      throw std::invalid_argument(void_fraction);
+    return value;
+  }
+
+  void
+  OriginalBedParameters::check() const
+  {
+    double value = -1.;
+    try
+      {
+        value = number().value_or(0.4);
+      }
+    catch (const std::exception &)
+      {
+      }
+    require(value >= 0.26 && value < 1.,
+            "Original bed/void fraction",
+            "is neither simulated, correlation or measured nor a void fraction from 0.26 "
+            "(the densest order) to 1");
+    require(measured_height > 0.,
+            "Original bed/measured height",
+            "a height is positive, in metres; one and a half vessel diameters suffice");
+    require(target_void_fraction == 0. ||
+              (target_void_fraction >= 0.36 && target_void_fraction < 1.),
+            "Original bed/target void fraction",
+            "equal spheres cannot be tapped into less than about 0.36; 0 takes the bed "
+            "as it comes");
+  }
+} // namespace graupel
