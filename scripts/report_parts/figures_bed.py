@@ -155,7 +155,6 @@ def deviation(run, paper):
         ("deviation_from_ergun", BLUE, "o", "-", "whole bed"),
         ("gradient_deviation_from_ergun", VERMILLION, "s", "-", "gradient over the middle half"),
         ("wall_channelling_deviation", GREEN, "^", ":", "predicted from the radial void fraction"),
-        ("axial_profile_deviation", GREY, "v", ":", "predicted from the axial void fraction"),
     ]
     values = [column(run.cases, key) * PERCENT for key, *_ in curves]
     if not any(known(array) for array in values):

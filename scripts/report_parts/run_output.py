@@ -20,7 +20,6 @@ CASE_KEYS = (
     "deviation_from_ergun",
     "gradient_deviation_from_ergun",
     "wall_channelling_deviation",
-    "axial_profile_deviation",
     "bed_height",
     "bed_rise",
     "mean_void_fraction",

@@ -198,19 +198,6 @@ def what_is_left(run):
             f" The whole bed differs from its middle half by a further {outside} points: the two"
             f" ends of the bed, and its height and mean void fraction as defined."
         )
-    axial = between(
-        [
-            case["axial_profile_deviation"]
-            for case in run.cases
-            if case["fluidized"] is False and case["axial_profile_deviation"] is not None
-        ],
-        percent,
-    )
-    if axial != NONE:
-        text += (
-            f" Ergun's equation, summed over the axial profile of the void fraction, in which the"
-            f" filter has smeared the surface of the bed, predicts {axial} for the whole bed."
-        )
     return text
 
 

@@ -414,6 +414,20 @@ namespace graupel
   }
 
   double
+  Dem::original_sauter_diameter() const
+  {
+    const auto types = input.types();
+    double     solid = 0., over_diameter = 0.;
+    for (unsigned int i = 0; i < arrays.n_owned; ++i)
+      {
+        const double radius = arrays.body[i].radius, volume = sphere_volume(radius);
+        solid += volume;
+        over_diameter += volume * types[arrays.type[i]].scale / (2. * radius);
+      }
+    return mpi::sum(solid, communicator()) / mpi::sum(over_diameter, communicator());
+  }
+
+  double
   Dem::solid_volume() const
   {
     return total_volume;

@@ -172,7 +172,7 @@ namespace graupel
     const auto bed = observables.bed();
     summary.bed    = {dem.n_global(),
                       parameters.simulated_diameter(),
-                      parameters.dem.particles.diameter,
+                      dem.original_sauter_diameter(),
                       parameters.dem.particles.scale,
                       dem.solid_volume(),
                       bed.height,

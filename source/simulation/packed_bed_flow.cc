@@ -300,7 +300,7 @@ namespace graupel
     const MonitorRow       mean =
       mean_since(case_rows, time - averaged_part * result.simulated_time);
     const auto   bed      = observables.bed();
-    const double diameter = parameters.dem.particles.diameter;
+    const double diameter = summary.bed.original_diameter;
     const double velocity = result.superficial_velocity;
 
     result.bed_height         = bed.height;
@@ -343,14 +343,6 @@ namespace graupel
     const auto radial = radial_profile(fields, parameters.output.annuli, lower, upper);
     result.wall_channelling_deviation = wall_channelling_deviation(
       radial, parameters.fluid, diameter, velocity, middle_void_fraction);
-
-    result.axial_profile_deviation =
-      axial_profile_deviation(axial,
-                              parameters.fluid,
-                              diameter,
-                              velocity,
-                              result.ergun_pressure_drop,
-                              mesh.cylinder().cross_section());
 
     files.write_axial(number, axial, result);
     files.write_radial(number, radial, parameters.cylinder.diameter / 2.);

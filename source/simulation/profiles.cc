@@ -143,20 +143,4 @@ namespace graupel
                fluid, diameter, mean_void_fraction, superficial_velocity) -
            1.;
   }
-
-  double
-  axial_profile_deviation(const std::vector<RegionMean> &axial,
-                          const FluidProperties         &fluid,
-                          const double                   diameter,
-                          const double                   superficial_velocity,
-                          const double                   ergun_pressure_drop,
-                          const double                   cross_section)
-  {
-    double drop = 0.;
-    for (const RegionMean &slab : axial)
-      drop += slab.volume / cross_section *
-              ergun_pressure_gradient(
-                fluid, diameter, std::min(slab.void_fraction, 1.), superficial_velocity);
-    return drop / ergun_pressure_drop - 1.;
-  }
 } // namespace graupel

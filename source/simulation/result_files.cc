@@ -187,8 +187,7 @@ namespace graupel
     auto stream = open("cases.csv");
     stream
       << "superficial_velocity,pressure_drop,ergun_pressure_drop,deviation_from_ergun,"
-         "gradient_deviation_from_ergun,wall_channelling_deviation,axial_profile_"
-         "deviation,"
+         "gradient_deviation_from_ergun,wall_channelling_deviation,"
          "bed_height,bed_rise,"
          "mean_void_fraction,bottom_force,wall_force,fluid_force,weight,fluidized,steady,"
          "simulated_time,wall_seconds,cpu_seconds\n";
@@ -196,7 +195,7 @@ namespace graupel
       stream << row.superficial_velocity << ',' << row.pressure_drop << ','
              << row.ergun_pressure_drop << ',' << row.deviation_from_ergun << ','
              << row.gradient_deviation_from_ergun << ',' << row.wall_channelling_deviation
-             << ',' << row.axial_profile_deviation << ',' << row.bed_height << ','
+             << ',' << row.bed_height << ','
              << row.bed_rise << ',' << row.mean_void_fraction << ',' << row.bottom_force
              << ',' << row.wall_force << ',' << row.fluid_force << ',' << row.weight
              << ',' << row.fluidized << ',' << row.steady << ',' << row.simulated_time

@@ -38,7 +38,6 @@ namespace graupel
               {"deviation_from_ergun", result.deviation_from_ergun},
               {"gradient_deviation_from_ergun", result.gradient_deviation_from_ergun},
               {"wall_channelling_deviation", result.wall_channelling_deviation},
-              {"axial_profile_deviation", result.axial_profile_deviation},
               {"bed_height", result.bed_height},
               {"bed_rise", result.bed_rise},
               {"mean_void_fraction", result.mean_void_fraction},

@@ -106,27 +106,6 @@ TEST(Profiles, AverageLinearFieldsExactly)
   EXPECT_GE(n_points, 11u * 20u);
 }
 
-TEST(AxialProfile, ExplainsASmearedSurface)
-{
-  // Slabs of an even bed up to its height give Ergun's drop; moving solids from
-  // the top slab into the clear slab above lowers it.
-  const FluidProperties   fluid;
-  const double            area = 1e-3, alpha = 0.4, velocity = 0.4;
-  std::vector<RegionMean> slabs(4);
-  for (RegionMean &slab : slabs)
-    {
-      slab.volume        = 0.01 * area;
-      slab.void_fraction = alpha;
-    }
-  slabs[3].void_fraction = 1.;
-  const double ergun     = ergun_pressure_drop(fluid, 1.6e-3, alpha, velocity, 0.03);
-  EXPECT_NEAR(
-    axial_profile_deviation(slabs, fluid, 1.6e-3, velocity, ergun, area), 0., 1e-12);
-  slabs[2].void_fraction = 0.5;
-  slabs[3].void_fraction = 0.9;
-  EXPECT_LT(axial_profile_deviation(slabs, fluid, 1.6e-3, velocity, ergun, area), -0.1);
-}
-
 TEST(WallChannelling, IsNothingInAnEvenBedAndLessDropInAnUnevenOne)
 {
   const FluidProperties fluid;

@@ -198,6 +198,9 @@ namespace graupel
 
     /** Volume of all particles [m^3]. */
     double solid_volume() const;
+    /** Sauter mean diameter of the original particles, volume over surface times six [m].
+     * Collective. */
+    double original_sauter_diameter() const;
     /** Mass of all particles [kg]. */
     double
     solid_mass() const

@@ -44,7 +44,6 @@ namespace graupel
     double deviation_from_ergun          = 0.; // [-]
     double gradient_deviation_from_ergun = 0.; // over the middle half, at the end [-]
     double wall_channelling_deviation    = 0.; // expected from the radial profile [-]
-    double axial_profile_deviation       = 0.; // expected from the axial profile [-]
     double bed_height                    = 0.; // at the end [m]
     double bed_rise                      = 0.; // since settling [m]
     double mean_void_fraction            = 0.; // at the end [-]
@@ -64,7 +63,7 @@ namespace graupel
   {
     unsigned int particle_count           = 0;
     double       particle_diameter        = 0.; // simulated [m]
-    double       original_diameter        = 0.; // [m]
+    double       original_diameter        = 0.; // Sauter mean [m]
     double       scale                    = 1.; // [-]
     double       solid_volume             = 0.; // [m^3]
     double       height                   = 0.; // [m]

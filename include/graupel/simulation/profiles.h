@@ -72,18 +72,6 @@ namespace graupel
                                     const double                   diameter,
                                     const double                   superficial_velocity,
                                     const double                   mean_void_fraction);
-
-  /**
-   * What the bed's ends and layers do by themselves: Ergun's equation summed over
-   * the void fraction along the axis, in which the filter has smeared the surface
-   * of the bed, over @p ergun_pressure_drop [Pa], minus 1 [-].
-   */
-  double axial_profile_deviation(const std::vector<RegionMean> &axial,
-                                 const FluidProperties         &fluid,
-                                 const double                   diameter,
-                                 const double                   superficial_velocity,
-                                 const double                   ergun_pressure_drop,
-                                 const double                   cross_section);
 } // namespace graupel
 
 #endif
