@@ -214,6 +214,18 @@ namespace graupel
     return factor;
   }
 
+  std::vector<double>
+  Exchange::smooth_power(const int exponent)
+  {
+    for (unsigned int k = 0; k < scratch.locally_owned_size(); ++k)
+      scratch.local_element(k) =
+        std::pow(result.void_fraction.local_element(k), exponent);
+    filter.smooth(smooth_bed, scratch);
+    std::vector<double> values;
+    transfer.sample(values, smooth_bed);
+    return values;
+  }
+
   void
   Exchange::deposit_drag(const ParticleArrays &particles)
   {
@@ -224,6 +236,8 @@ namespace graupel
     for (unsigned int i = 0; i < 3; ++i)
       transfer.sample(velocity[i], smooth_velocity[i]);
     const std::vector<double> law_alpha = law_void_fractions(alpha);
+    const std::vector<double> of_slip   = smooth_power(-1);
+    const std::vector<double> of_drag   = smooth_power(result.shares_pressure ? -2 : -1);
 
     beta.resize(n);
     for (unsigned int row = 0; row < n; ++row)
@@ -234,13 +248,11 @@ namespace graupel
         try
           {
             const auto &[drag, radius] = drags[particles.type[row]];
-            const double ratio         = alpha[row] / law_alpha[row];
-            beta[row]                  = ratio * ratio *
-                        drag.beta(law_alpha[row],
-                                  slip.norm() * ratio,
-                                  particles.body[row].radius / radius);
-            if (!result.shares_pressure)
-              beta[row] /= alpha[row];
+            const double a             = law_alpha[row];
+            beta[row]                  = drag.beta(a,
+                                  slip.norm() / (of_slip[row] * a),
+                                  particles.body[row].radius / radius) /
+                        (of_drag[row] * a * a);
           }
         catch (const std::exception &error)
           {

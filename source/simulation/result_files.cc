@@ -195,11 +195,11 @@ namespace graupel
       stream << row.superficial_velocity << ',' << row.pressure_drop << ','
              << row.ergun_pressure_drop << ',' << row.deviation_from_ergun << ','
              << row.gradient_deviation_from_ergun << ',' << row.wall_channelling_deviation
-             << ',' << row.bed_height << ','
-             << row.bed_rise << ',' << row.mean_void_fraction << ',' << row.bottom_force
-             << ',' << row.wall_force << ',' << row.fluid_force << ',' << row.weight
-             << ',' << row.fluidized << ',' << row.steady << ',' << row.simulated_time
-             << ',' << row.wall_seconds << ',' << row.cpu_seconds << '\n';
+             << ',' << row.bed_height << ',' << row.bed_rise << ','
+             << row.mean_void_fraction << ',' << row.bottom_force << ',' << row.wall_force
+             << ',' << row.fluid_force << ',' << row.weight << ',' << row.fluidized << ','
+             << row.steady << ',' << row.simulated_time << ',' << row.wall_seconds << ','
+             << row.cpu_seconds << '\n';
   }
 
   void

@@ -176,6 +176,24 @@ namespace
     EXPECT_THROW(p.check(SmallColumn::vessel()), InputError);
   }
 
+  // Law: d32 = sum n d^3 / sum n d^2 over the original particles, of which a simulated
+  // one of scale s stands for s^3. Here 8 of 1 mm and 27 of 2 mm, simulated by one each.
+  TEST(Insertion, SauterMeanOfTheOriginalParticles)
+  {
+    DemParameters p;
+    p.particles.diameter                       = 1e-3;
+    p.particles.scale                          = 2.;
+    p.particles.further_types[0].mass_fraction = 0.5;
+    p.particles.further_types[0].diameter      = 2e-3;
+    p.particles.further_types[0].scale         = 3.;
+    SmallColumn column(p);
+    column.dem.insert({NewParticle{Point<3>(-3e-3, 0., 6e-3), 1e-3, Vector(), {}, 0},
+                       NewParticle{Point<3>(1.5e-3, 0., 6e-3), 3e-3, Vector(), {}, 1}});
+    EXPECT_NEAR(column.dem.original_sauter_diameter(),
+                (8. * 1. + 27. * 8.) / (8. * 1. + 27. * 4.) * 1e-3,
+                1e-15);
+  }
+
   // Law (JKR): two spheres stick; a pull of 0.95 of 3/2 pi w R* does not part them, one
   // of 1.05 does.
   TEST(Insertion, AdhesionHoldsUpToThePullOff)

@@ -173,6 +173,70 @@ class ShortRun(unittest.TestCase):
             self.assertFalse((pathlib.Path(folder) / "summary.json").exists())
 
 
+class AutomaticFlow(unittest.TestCase):
+    """The steady flow through a resting bed, and its hand-over to the moving one."""
+
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = tempfile.TemporaryDirectory()
+        cls.path = pathlib.Path(cls.folder.name)
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.folder.cleanup()
+
+    def flow(self, name, mode, velocities, *arguments):
+        output = self.path / name
+        finished = call(
+            SHORT, "--set", "Output/report=false", "--set", f"Flow/mode={mode}", "--set",
+            f"Flow/superficial velocities={velocities}", "--output", output, *arguments
+        )
+        self.assertEqual(finished.returncode, 0, finished.stderr)
+        return json.loads((output / "summary.json").read_text())["cases"], finished.stdout
+
+    def test_a_resting_bed_has_the_flow_of_the_moving_one(self):
+        still, told = self.flow("still", "automatic", "0.3, 0.5")
+        moving, _ = self.flow("moving", "transient", "0.3, 0.5")
+        self.assertNotIn("does not rest", told)
+        for one, other in zip(still, moving):
+            self.assertAlmostEqual(one["pressure_drop"] / other["pressure_drop"], 1.0, delta=2e-3)
+            self.assertAlmostEqual(one["bottom_force"] / one["weight"],
+                                   other["bottom_force"] / other["weight"], delta=2e-3)
+
+    def test_a_bed_that_lifts_is_handed_over(self):
+        light = ("--set", "Particles/density=300", "--set", "Geometry/height=0.08",
+                 "--set", "Flow/maximum time=0.4")
+        cases, told = self.flow("lifts", "automatic", "0.1, 0.4", *light)
+        self.assertEqual(told.count("does not rest"), 1)
+        self.assertFalse(cases[0]["fluidized"])
+        self.assertGreater(cases[1]["bed_rise"], 3e-4)
+        self.assertAlmostEqual(cases[1]["fluid_force"] / cases[1]["weight"], 1.0, delta=0.1)
+
+
+class OriginalBed(unittest.TestCase):
+    """The drag law at the void fraction of the original particles."""
+
+    def test_it_is_measured_and_used(self):
+        with tempfile.TemporaryDirectory() as folder:
+            output = pathlib.Path(folder)
+            drops = {}
+            for choice in ("simulated", "measured", "correlation"):
+                finished = call(
+                    SHORT, "--set", "Output/report=false", "--set", "Flow/mode=steady", "--set",
+                    "Flow/superficial velocities=0.3", "--set",
+                    f"Original bed/void fraction={choice}", "--set",
+                    "Original bed/measured height=0.02", "--output", output / choice
+                )
+                self.assertEqual(finished.returncode, 0, finished.stderr)
+                summary = json.loads((output / choice / "summary.json").read_text())
+                drops[choice] = summary["cases"][0]["pressure_drop"]
+                ratio = summary["bed"]["original_solid_ratio"]
+                self.assertEqual(ratio > 1.0, choice != "simulated")
+                self.assertLess(ratio, 1.1)
+            self.assertGreater(drops["measured"], 1.05 * drops["simulated"])
+            self.assertGreater(drops["correlation"], 1.05 * drops["simulated"])
+
+
 class Checkpoints(unittest.TestCase):
     """A run that stops goes on where it was, and its bed serves another."""
 

@@ -66,10 +66,15 @@ namespace graupel
    *
    * The void fraction of the law, alpha', may be another than that of the flow, alpha:
    * undisturbed by the filter where that smears the surface of the bed, or that of
-   * another bed which the simulated one stands for (LawVoidFraction). The pressure
-   * gradient is then the one at alpha' and the same superficial slip w = alpha |u - v|:
+   * another bed which the simulated one stands for (LawVoidFraction). What a particle
+   * adds to the pressure drop is the law's at alpha' and the same superficial slip w:
    *
-   *   beta_p = beta_law(alpha', w / alpha') (alpha / alpha')^2.
+   *   beta_p = beta_law(alpha', w / alpha') / (alpha'^2 W S alpha^-2),
+   *   w = |(W S u)_p - v_p| / W S alpha^-1,
+   *
+   * since a flux q and the drag q S M^-1 W^T beta_p / alpha make the pressure gradient
+   * q S M^-1 W^T beta_p / alpha^2, the sum of which over the bed is that of
+   * beta_p (W S alpha^-2)_p q. In an even bed this is beta_law(alpha, |u - v|).
    *
    * The surface: chi is 1 where the solid fraction is above half of its mean over the
    * particles, and 0 below; 1 - alpha' = (1 - alpha) max(1, chi / S chi), a normalised
@@ -152,6 +157,8 @@ namespace graupel
     std::vector<double> law_void_fractions(const std::vector<double> &alpha);
     // chi / S chi, at least 1, at each own particle: above 1 at the surface.
     std::vector<double> surface_factors(const std::vector<double> &alpha);
+    // A power of the void fraction, smoothed, at each own particle.
+    std::vector<double> smooth_power(const int exponent);
     void                deposit_drag(const ParticleArrays &particles);
     void keep_ledger(const FlowSolver &flow, const NodalVectorField &pressure_gradient);
 

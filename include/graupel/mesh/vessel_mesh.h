@@ -127,7 +127,8 @@ namespace graupel
      */
     void adapt(const CellWeight &weight);
 
-    /** Writes the refinement, and what is attached for it, to files whose names begin with
+    /** Writes the refinement, and what is attached for it, to files whose names begin
+     * with
      * @p file. Collective. */
     void save(const std::string &file) const;
 

@@ -1,0 +1,1 @@
+"""What scripts/paper.py makes doc/paper/ of."""

@@ -1,0 +1,265 @@
+"""One figure for each of the paper's figures 3 to 12, and those beyond it."""
+
+import numpy as np
+from matplotlib.collections import EllipseCollection
+from matplotlib.patches import Rectangle
+
+from report_parts import figures_bed, figures_inside, reference
+from report_parts.style import (
+    BLACK,
+    BLUE,
+    GREEN,
+    GREY,
+    MILLI,
+    ORANGE,
+    PERCENT,
+    PURPLE,
+    VERMILLION,
+    column,
+    new_figure,
+    plot_cases,
+    velocity_axis,
+)
+
+from .particles import positions
+from .runs import drop_at, fixed_cases, supported_drop
+
+
+def draw_bed(axes, run):
+    """The spheres seen from the side, those behind drawn first, and the vessel."""
+    points = positions(run.directory) * MILLI
+    diameter = run.number("bed", "particle_diameter") * MILLI
+    vessel = run.number("bed", "vessel_diameter") * MILLI
+    height = run.number("bed", "vessel_height") * MILLI
+    # From behind to the front; only the half that can be seen.
+    points = points[points[:, 1] < 0.2 * vessel]
+    points = points[np.argsort(-points[:, 1])]
+    depth = np.clip(0.5 - points[:, 1] / vessel, 0.0, 1.0)
+    base = np.array([0.36, 0.55, 0.72])
+    for size, offset, light in ((1.0, 0.0, 0.45), (0.8, 0.06, 0.75), (0.5, 0.13, 1.0)):
+        shade = np.clip(np.outer(0.35 + 0.65 * depth, base * light + 0.25 * light), 0.0, 1.0)
+        if size == 1.0:
+            layers = []
+        layers.append((size, offset, shade))
+    # All layers of a sphere before the next sphere: one collection, in that order.
+    n = len(points)
+    sizes = np.tile([diameter * layer[0] for layer in layers], n)
+    centers = np.repeat(points[:, [0, 2]], len(layers), axis=0)
+    shift = np.tile([diameter * layer[1] for layer in layers], n)
+    centers = centers + np.stack([-shift, shift], axis=1)
+    colours = np.stack([layer[2] for layer in layers], axis=1).reshape(-1, 3)
+    axes.add_collection(
+        EllipseCollection(
+            sizes,
+            sizes,
+            np.zeros_like(sizes),
+            units="xy",
+            offsets=centers,
+            offset_transform=axes.transData,
+            facecolors=colours,
+            edgecolors="none",
+        )
+    )
+    axes.add_patch(
+        Rectangle((-vessel / 2, 0), vessel, height, fill=False, edgecolor=BLACK, linewidth=0.8)
+    )
+    axes.set_xlim(-0.6 * vessel, 0.6 * vessel)
+    axes.set_ylim(-2.0, height + 2.0)
+    axes.set_aspect("equal")
+    axes.grid(False)
+    axes.set_xlabel("x [mm]")
+    axes.set_title(
+        f"{run.number('bed', 'particle_count'):,.0f} spheres of {diameter:.1f} mm\n"
+        f"height {run.number('bed', 'height') * MILLI:.1f} mm,"
+        f" void fraction {run.number('bed', 'mean_void_fraction'):.4f}",
+        fontsize=8,
+    )
+
+
+def beds(first, second):
+    """Figure 3: two beds side by side, to scale."""
+    figure = new_figure(width=5.0, height=8.0)
+    left, right = figure.subplots(1, 2, sharey=True)
+    draw_bed(left, first)
+    draw_bed(right, second)
+    left.set_ylabel("height over the bottom z [mm]")
+    return figure
+
+
+def pressure_profile(run):
+    """Figures 4 and 9: pressure along the axis in case 1, and Ergun's line."""
+    table, case = run.profiles[1], run.case(1)
+    figure = new_figure(height=3.4)
+    axes = figure.subplots()
+    z = table["z"] * MILLI
+    axes.plot(z, table["pressure"], color=BLUE, label="computed, section average")
+    axes.plot(z, table["ergun_pressure"], "--", color=VERMILLION, label="Ergun, this bed")
+    axes.axvline(case["bed_height"] * MILLI, color=GREY, linestyle=":", linewidth=1.0)
+    axes.annotate(
+        "top of the bed",
+        (case["bed_height"] * MILLI, 0.6 * table["pressure"].max()),
+        xytext=(-4, 0),
+        textcoords="offset points",
+        ha="right",
+        color=GREY,
+        fontsize=8,
+    )
+    axes.set_xlabel("height over the bottom z [mm]")
+    axes.set_ylabel("pressure over outlet [Pa]")
+    axes.set_title(f"case 1, $V_s$ = {case['superficial_velocity']:.3f} m/s")
+    axes.legend()
+    return figure
+
+
+def bottom_force(light, heavy, paper):
+    """Figures 5 and 10: force on the bottom over the weight, both densities."""
+    figure = new_figure(height=3.6)
+    axes = figure.subplots()
+    for run, colour, label in (
+        (light, BLUE, "1100 kg/m³"),
+        (heavy, PURPLE, "2700 kg/m³ (aluminium)"),
+    ):
+        weight = run.cases[0]["weight"]
+        plot_cases(
+            axes, run.cases, column(run.cases, "bottom_force") / weight * PERCENT, colour, label
+        )
+    axes.axhline(0.0, color=GREY, linewidth=0.9)
+    axes.axvline(paper.onset_velocity, color=VERMILLION, linestyle=":", linewidth=1.1)
+    axes.annotate(
+        f"the paper's bed lifts:\n{paper.onset_bottom_force:.3f} N",
+        (paper.onset_velocity, 0.6 * axes.get_ylim()[1]),
+        xytext=(4, 0),
+        textcoords="offset points",
+        color=VERMILLION,
+        fontsize=8,
+    )
+    velocity_axis(axes)
+    axes.set_ylabel("force on the bottom / weight [%]")
+    axes.legend()
+    return figure
+
+
+def pressure_drop(fixed, light, paper, more=()):
+    """Figures 6 and 11: pressure drop against Ergun's values, ours and the paper's."""
+    figure = new_figure(height=4.0)
+    axes = figure.subplots()
+    smooth = np.linspace(0.2, 0.62, 100)
+    axes.plot(smooth, reference.ergun_curve(fixed, smooth), color=GREY, label="Ergun, our bed")
+    axes.plot(
+        paper.velocity,
+        paper.ergun,
+        "D",
+        markerfacecolor="none",
+        markeredgecolor=VERMILLION,
+        label="Ergun, the paper's Table 1",
+    )
+    plot_cases(
+        axes, fixed.cases, column(fixed.cases, "pressure_drop"), BLUE, "computed, 2700 kg/m³"
+    )
+    plot_cases(
+        axes, light.cases, column(light.cases, "pressure_drop"), GREEN, "computed, 1100 kg/m³", "s"
+    )
+    for run, colour, label in more:
+        plot_cases(axes, run.cases, column(run.cases, "pressure_drop"), colour, label, "^")
+    axes.axhline(supported_drop(light), color=PURPLE, linestyle="--", linewidth=1.0)
+    axes.annotate(
+        "1100 kg/m³: weight over cross-section",
+        (0.2, supported_drop(light)),
+        xytext=(2, 3),
+        textcoords="offset points",
+        color=PURPLE,
+        fontsize=8,
+    )
+    velocity_axis(axes)
+    axes.set_ylabel("pressure drop [Pa]")
+    axes.legend(loc="lower right")
+    return figure
+
+
+def percent_error(run, paper, more=()):
+    """Figures 7 and 12: deviation from Ergun's equation of the bed's own height and void
+    fraction, and how much of it the looser packing at the wall explains."""
+    figure = new_figure(height=3.8)
+    axes = figure.subplots()
+    band = np.array(paper.band) * PERCENT
+    axes.fill_between(
+        [paper.velocity[0], paper.velocity[-2]],
+        *band,
+        color="#DCDCDC",
+        linewidth=0,
+        label=f"the paper: {paper.band_in_words}",
+    )
+    axes.axhline(0.0, color=GREY, linewidth=0.9)
+    cases = fixed_cases(run)
+    plot_cases(axes, cases, column(cases, "deviation_from_ergun") * PERCENT, BLUE, "whole bed")
+    plot_cases(
+        axes,
+        cases,
+        column(cases, "wall_channelling_deviation") * PERCENT,
+        ORANGE,
+        "Ergun over the radial void fraction",
+        "^",
+        ":",
+    )
+    for other, colour, label in more:
+        shown = fixed_cases(other)
+        plot_cases(axes, shown, column(shown, "deviation_from_ergun") * PERCENT, colour, label, "s")
+    velocity_axis(axes)
+    axes.set_ylabel("deviation from Ergun [%]")
+    axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.16), ncols=2)
+    return figure
+
+
+def void_fraction(run):
+    """Figure 8: void fraction on the mid-plane, first and last case."""
+    return figures_inside.void_fraction(run, None)
+
+
+def scales(runs_by_scale):
+    """Deviation from Ergun, each bed's own, against the scale."""
+    figure = new_figure(height=3.4)
+    axes = figure.subplots()
+    for scale, run in runs_by_scale:
+        values = column(fixed_cases(run), "deviation_from_ergun") * PERCENT
+        axes.plot([scale] * len(values), values, "o", color=BLUE)
+    axes.axhspan(-2.0, 2.0, color="#EAEAEA", zorder=0)
+    axes.axhline(0.0, color=GREY, linewidth=0.9)
+    axes.set_xlabel("scale s: simulated over original diameter [-]")
+    axes.set_ylabel("deviation from Ergun [%]")
+    return figure
+
+
+def original_bed(reference_run, plain, corrected):
+    """Pressure drop over that of the 1X bed, without and with the void-fraction correction."""
+    figure = new_figure(height=3.8)
+    axes = figure.subplots()
+    colours = {2: BLUE, 3: GREEN, 4: VERMILLION}
+    for group, marker, line, label in (
+        (plain, "s", ":", "law at the simulated bed's void fraction"),
+        (corrected, "o", "-", "law at the original bed's"),
+    ):
+        for scale, run in group:
+            cases = fixed_cases(run)
+            ratio = [
+                case["pressure_drop"] / drop_at(reference_run, case["superficial_velocity"])
+                for case in cases
+            ]
+            plot_cases(
+                axes,
+                cases,
+                (np.array(ratio) - 1.0) * PERCENT,
+                colours[scale],
+                f"s = {scale}, {label}",
+                marker,
+                line,
+            )
+    axes.axhline(0.0, color=GREY, linewidth=0.9)
+    velocity_axis(axes)
+    axes.set_ylabel("pressure drop over the 1X bed's [%]")
+    axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.16), ncols=2)
+    return figure
+
+
+def profile_of_all(run):
+    """All cases' pressure profiles."""
+    return figures_bed.pressure_profile(run, None)

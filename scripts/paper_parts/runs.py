@@ -1,0 +1,119 @@
+"""The runs of scripts/reproduce-paper, and numbers that are taken from several cases."""
+
+import csv
+import math
+from pathlib import Path
+
+import numpy as np
+
+from report_parts import reference
+from report_parts.run_output import read_run
+
+# Fixed-bed cases: the fluid carries less than this part of the weight. Beyond, the bed
+# has begun to loosen.
+FIXED = 0.86
+GRAVITY = 9.81
+
+
+class Runs:
+    """Runs by name, read when asked for."""
+
+    def __init__(self, directory):
+        self.directory = Path(directory)
+        self.read = {}
+
+    def has(self, name):
+        """Whether this run has ended."""
+        return (self.directory / name / "summary.json").exists()
+
+    def __getitem__(self, name):
+        if name not in self.read:
+            if not self.has(name):
+                raise FileNotFoundError(
+                    f"{self.directory / name}: not there; scripts/reproduce-paper makes it"
+                )
+            self.read[name] = read_run(self.directory / name)
+        return self.read[name]
+
+    def study(self, name):
+        """The rows of a study.csv, numbers as floats or None."""
+        with open(self.directory / name / "study.csv", newline="", encoding="utf-8") as file:
+            rows = list(csv.DictReader(file))
+        for row in rows:
+            for key, value in row.items():
+                if key != "quantity":
+                    row[key] = float(value) if value else None
+        return rows
+
+
+def case_at(run, velocity):
+    """The case of @p run at this superficial velocity [m/s]."""
+    for case in run.cases:
+        if math.isclose(case["superficial_velocity"], velocity, rel_tol=1e-6):
+            return case
+    raise KeyError(f"{run.directory}: no case at {velocity} m/s")
+
+
+def drop_at(run, velocity):
+    """Pressure drop [Pa] at a superficial velocity between two fixed-bed cases, by a line in
+    the ratio to Ergun's value of the resting bed, which hardly changes."""
+    fixed = fixed_cases(run)
+    v = np.array([case["superficial_velocity"] for case in fixed])
+    ratio = np.array([case["pressure_drop"] for case in fixed]) / reference.ergun_curve(run, v)
+    return float(np.interp(velocity, v, ratio)) * float(reference.ergun_curve(run, velocity))
+
+
+def fixed_cases(run):
+    """The cases in which the bed rests."""
+    return [case for case in run.cases if case["fluid_force"] < FIXED * case["weight"]]
+
+
+def supported_drop(run):
+    """Pressure drop [Pa] at which the fluid carries the bed: weight less buoyancy over the
+    cross-section."""
+    density = run.number("fluid", "density")
+    solid = run.number("bed", "solid_volume")
+    area = math.pi * run.number("bed", "vessel_diameter") ** 2 / 4.0
+    return (run.cases[0]["weight"] - density * GRAVITY * solid) / area
+
+
+def velocity_of(drop, of_velocity):
+    """The superficial velocity [m/s] at which a rising function reaches @p drop."""
+    low, high = 0.0, 5.0
+    for _ in range(80):
+        middle = 0.5 * (low + high)
+        low, high = (middle, high) if of_velocity(middle) < drop else (low, middle)
+    return 0.5 * (low + high)
+
+
+def onset(run):
+    """Onset of fluidisation as it is measured: where the line of the fixed bed, a V + b V^2
+    through its cases, meets the drop that carries the bed [m/s]."""
+    fixed = fixed_cases(run)
+    v = np.array([case["superficial_velocity"] for case in fixed])
+    drop = np.array([case["pressure_drop"] for case in fixed])
+    a, b = np.linalg.lstsq(np.stack([np.ones_like(v), v], axis=1), drop / v, rcond=None)[0]
+    return velocity_of(supported_drop(run), lambda velocity: a * velocity + b * velocity**2)
+
+
+def ergun_onset(run, void_fraction=None, height=None):
+    """Onset by Ergun's equation for the bed at rest, or for another one [m/s]."""
+    values = (
+        height or run.number("bed", "height"),
+        void_fraction or run.number("bed", "mean_void_fraction"),
+        run.number("bed", "original_diameter"),
+        run.number("fluid", "density"),
+        run.number("fluid", "viscosity"),
+    )
+    return velocity_of(
+        supported_drop(run), lambda velocity: reference.ergun_pressure_drop(velocity, *values)
+    )
+
+
+def plateau(run):
+    """Mean drop [Pa] of the cases in which the fluid carries the bed, over the drop that does
+    so [-]; None without such a case."""
+    lifted = [case for case in run.cases if case["fluid_force"] > 0.985 * case["weight"]]
+    if not lifted:
+        return None
+    return float(np.mean([case["pressure_drop"] for case in lifted])) / supported_drop(run)
