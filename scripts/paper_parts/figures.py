@@ -4,7 +4,7 @@ import numpy as np
 from matplotlib.collections import EllipseCollection
 from matplotlib.patches import Rectangle
 
-from report_parts import figures_bed, figures_inside, reference
+from report_parts import figures_inside, reference
 from report_parts.style import (
     BLACK,
     BLUE,
@@ -25,29 +25,32 @@ from .particles import positions
 from .runs import drop_at, fixed_cases, supported_drop
 
 
+SPHERE = np.array([0.36, 0.55, 0.72])
+# Diameter and offset over that of the sphere, brightness.
+DISCS = ((1.0, 0.0, 0.45), (0.8, 0.06, 0.75), (0.5, 0.13, 1.0))
+
+
 def draw_bed(axes, run):
     """The spheres seen from the side, those behind drawn first, and the vessel."""
     points = positions(run.directory) * MILLI
     diameter = run.number("bed", "particle_diameter") * MILLI
     vessel = run.number("bed", "vessel_diameter") * MILLI
     height = run.number("bed", "vessel_height") * MILLI
-    # From behind to the front; only the half that can be seen.
+    # From behind to the front, without the half that cannot be seen.
     points = points[points[:, 1] < 0.2 * vessel]
     points = points[np.argsort(-points[:, 1])]
     depth = np.clip(0.5 - points[:, 1] / vessel, 0.0, 1.0)
-    base = np.array([0.36, 0.55, 0.72])
-    for size, offset, light in ((1.0, 0.0, 0.45), (0.8, 0.06, 0.75), (0.5, 0.13, 1.0)):
-        shade = np.clip(np.outer(0.35 + 0.65 * depth, base * light + 0.25 * light), 0.0, 1.0)
-        if size == 1.0:
-            layers = []
-        layers.append((size, offset, shade))
-    # All layers of a sphere before the next sphere: one collection, in that order.
+    # Each sphere as three discs, the smaller the brighter and the nearer to the light;
+    # all discs of one before those of the next.
     n = len(points)
-    sizes = np.tile([diameter * layer[0] for layer in layers], n)
-    centers = np.repeat(points[:, [0, 2]], len(layers), axis=0)
-    shift = np.tile([diameter * layer[1] for layer in layers], n)
-    centers = centers + np.stack([-shift, shift], axis=1)
-    colours = np.stack([layer[2] for layer in layers], axis=1).reshape(-1, 3)
+    sizes = np.tile([diameter * size for size, _, _ in DISCS], n)
+    shift = np.tile([diameter * offset for _, offset, _ in DISCS], n)
+    centers = np.repeat(points[:, [0, 2]], len(DISCS), axis=0) + np.stack([-shift, shift], axis=1)
+    shades = [
+        np.clip(np.outer(0.35 + 0.65 * depth, SPHERE * light + 0.25 * light), 0.0, 1.0)
+        for _, _, light in DISCS
+    ]
+    colours = np.stack(shades, axis=1).reshape(-1, 3)
     axes.add_collection(
         EllipseCollection(
             sizes,
@@ -259,7 +262,3 @@ def original_bed(reference_run, plain, corrected):
     axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.16), ncols=2)
     return figure
 
-
-def profile_of_all(run):
-    """All cases' pressure profiles."""
-    return figures_bed.pressure_profile(run, None)

@@ -35,7 +35,8 @@ def positions(directory, number=0):
     parts = []
     for file in files:
         text = re.sub(r"<!--.*?-->", "", file.read_text(encoding="ascii"), flags=re.S)
-        array = ElementTree.fromstring(text.strip()).find(".//Points/DataArray")
-        kind = "<f4" if array.get("type") == "Float32" else "<f8"
-        parts.append(np.frombuffer(decode(array.text), kind).reshape(-1, 3).astype(float))
+        # A piece for each rank.
+        for array in ElementTree.fromstring(text.strip()).findall(".//Points/DataArray"):
+            kind = "<f4" if array.get("type") == "Float32" else "<f8"
+            parts.append(np.frombuffer(decode(array.text), kind).reshape(-1, 3).astype(float))
     return np.concatenate(parts)

@@ -217,4 +217,10 @@ namespace graupel
   {
     return law.drag_number(alpha, reynolds) / reynolds;
   }
+
+  double
+  polydisperse_drag_factor(const double alpha, const double y)
+  {
+    return y * y * (alpha + (1. - alpha) * y);
+  }
 } // namespace graupel

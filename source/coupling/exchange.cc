@@ -59,6 +59,13 @@ namespace graupel
       "solid fraction within the bed, as if the bed ended at once; smeared at the one of "
       "the filter, which costs a bed 1.1 standard deviations of its length.",
       dealii::Patterns::Selection("sharp|smeared"));
+    prm.add_parameter(
+      "mixture",
+      mixture,
+      "Drag in a bed of several sizes. sauter mean: the law is evaluated for the Sauter "
+      "mean diameter of the original particles and divided among the sizes after van der "
+      "Hoef et al. (2005); own diameter: for each particle's own.",
+      dealii::Patterns::Selection("sauter mean|own diameter"));
     prm.leave_subsection();
   }
 
@@ -247,11 +254,10 @@ namespace graupel
           slip[i] = velocity[i][row] - particles.body[row].velocity[i];
         try
           {
-            const auto &[drag, radius] = drags[particles.type[row]];
-            const double a             = law_alpha[row];
-            beta[row]                  = drag.beta(a,
-                                  slip.norm() / (of_slip[row] * a),
-                                  particles.body[row].radius / radius) /
+            const double a = law_alpha[row];
+            beta[row]      = drags[particles.type[row]].beta(a,
+                                                        slip.norm() / (of_slip[row] * a),
+                                                        particles.body[row].radius) /
                         (of_drag[row] * a * a);
           }
         catch (const std::exception &error)

@@ -424,7 +424,9 @@ namespace graupel
         solid += volume;
         over_diameter += volume * types[arrays.type[i]].scale / (2. * radius);
       }
-    return mpi::sum(solid, communicator()) / mpi::sum(over_diameter, communicator());
+    over_diameter = mpi::sum(over_diameter, communicator());
+    return over_diameter > 0. ? mpi::sum(solid, communicator()) / over_diameter
+                              : input.particles.diameter;
   }
 
   double

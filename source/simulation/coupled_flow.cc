@@ -31,9 +31,15 @@ namespace graupel
                    *node_space,
                    costs);
     std::vector<DragOfType> drags;
+    const bool              is_mixture = parameters.coupling.mixture == "sauter mean";
+    const double            sauter     = dem.original_sauter_diameter();
     for (const auto &type : parameters.dem.types())
-      drags.push_back({Drag(parameters.drag, parameters.fluid, type.diameter, type.scale),
-                       0.5 * type.scale * type.diameter});
+      {
+        const double diameter = is_mixture ? sauter : type.diameter;
+        drags.push_back({Drag(parameters.drag, parameters.fluid, diameter, type.scale),
+                         0.5 * type.scale * diameter,
+                         is_mixture});
+      }
     particles_and_fluid.emplace(
       parameters.filter_length(),
       parameters.coupling.model == "A",

@@ -19,8 +19,12 @@ namespace graupel
     // has another flow: it is looked for again, so often.
     constexpr double       unmoved    = 1e-4;
     constexpr unsigned int most_looks = 5;
-    // The force of a steady flow grows in pieces of this length [s].
-    constexpr double ramp_piece = 5e-3;
+    // Beyond this change of height [-] the bed does not rest against the steady flow; nor
+    // does it if the fluid carries more than this part of the weight.
+    constexpr double moved        = 2e-3;
+    constexpr double most_carried = 0.93;
+    // Between two looks at a bed that is held [s].
+    constexpr double hold_piece = 5e-3;
 
     // A step of the fluid that fails is tried with its half, so often.
     constexpr unsigned int maximum_halvings = 6;
@@ -154,12 +158,18 @@ namespace graupel
               fail_with_checkpoint(error);
             break;
           }
+        const double force = coupled->exchange().total_force()[2];
+        if (must_rest && force > most_carried * dem.weight())
+          break;
         const double height = observables.bed().height;
         hold_particles(force_before);
-        force_before       = coupled->exchange().total_force()[2];
+        force_before       = force;
         const double shift = std::abs(observables.bed().height / height - 1.);
-        if (must_rest && !is_at_rest())
-          break;
+        if (must_rest && (shift > moved || !is_at_rest()))
+          {
+            ramp_from = case_velocity;
+            break;
+          }
         if (must_rest && shift > unmoved)
           continue;
         std::ostringstream text;
@@ -170,29 +180,7 @@ namespace graupel
       }
     progress.say("the bed does not rest against this flow: fluid and particles move");
     case_begin = time;
-    ramp_from  = case_velocity;
     return false;
-  }
-
-  // Holds the bed against the force of a steady flow, so that bottom and wall carry what
-  // the fluid leaves them.
-  void
-  PackedBed::hold_particles(const double force_before)
-  {
-    const double ramp  = parameters.sweep.ramp_time;
-    const double force = coupled->exchange().total_force()[2];
-    const auto   n     = static_cast<unsigned int>(std::ceil(ramp / ramp_piece));
-    double       last  = 1.; // factor on the forces now
-    for (unsigned int piece = 1; piece <= n && force > 0.; ++piece)
-      {
-        const double part   = static_cast<double>(piece) / n;
-        const double factor = part + (1. - part) * std::max(0., force_before) / force;
-        for (dealii::Tensor<1, 3> &f : dem.particles().external_force)
-          f *= factor / last;
-        last = factor;
-        move_particles(ramp / n);
-      }
-    move_particles(parameters.sweep.steady_window);
   }
 
   bool
@@ -200,6 +188,30 @@ namespace graupel
   {
     return dem.maximum_speed() < parameters.settling.speed &&
            dem.mean_translational_energy() < parameters.settling.kinetic_energy;
+  }
+
+  void
+  PackedBed::hold_particles(const double force_before)
+  {
+    const double height = observables.bed().height;
+    const double force  = coupled->exchange().total_force()[2];
+    const double before = std::clamp(force > 0. ? force_before / force : 0., 0., 1.);
+    const double ramp   = parameters.sweep.ramp_time;
+    const double end    = ramp + parameters.sweep.steady_window;
+    const auto   n      = static_cast<unsigned int>(std::ceil(end / hold_piece));
+    double       last   = 1.; // factor on the forces now
+    for (unsigned int piece = 1; piece <= n; ++piece)
+      {
+        const double part   = ramp > 0. ? std::min(1., piece * end / n / ramp) : 1.;
+        const double factor = part + (1. - part) * before;
+        for (dealii::Tensor<1, 3> &f : dem.particles().external_force)
+          f *= factor / last;
+        last = factor;
+        move_particles(end / n);
+        if (parameters.sweep.mode == "automatic" &&
+            observables.bed().height > height * (1. + moved))
+          return;
+      }
   }
 
   double

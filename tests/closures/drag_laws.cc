@@ -271,3 +271,26 @@ TEST(DragLaws, TableIsSound)
     }
   EXPECT_THROW(find_drag_law("egrun"), std::out_of_range);
 }
+
+// The sum over a mixture is the drag of equal spheres of the Sauter mean diameter and the
+// same volume: sum n_i factor(y_i) = N with N <d>^3 = sum n_i d_i^3, and 1 for equal
+// ones.
+TEST(PolydisperseDrag, SumsToThatOfTheSauterMean)
+{
+  EXPECT_DOUBLE_EQ(polydisperse_drag_factor(0.4, 1.), 1.);
+  const std::vector<double> number{100., 30., 7.}, diameter{1., 1.5, 2.5};
+  double                    squares = 0., cubes = 0.;
+  for (unsigned int i = 0; i < 3; ++i)
+    {
+      squares += number[i] * std::pow(diameter[i], 2);
+      cubes += number[i] * std::pow(diameter[i], 3);
+    }
+  const double sauter = cubes / squares;
+  for (const double alpha : {0.35, 0.4, 0.7, 1.})
+    {
+      double sum = 0.;
+      for (unsigned int i = 0; i < 3; ++i)
+        sum += number[i] * polydisperse_drag_factor(alpha, diameter[i] / sauter);
+      EXPECT_NEAR(sum, cubes / std::pow(sauter, 3), 1e-12 * sum) << alpha;
+    }
+}

@@ -165,6 +165,21 @@ namespace graupel
 
   /** C_d [-] of a law; infinite at rest. */
   double drag_coefficient(const DragLaw &law, const double alpha, const double reynolds);
+
+  /**
+   * Factor on the drag coefficient beta_p of the law for spheres of the Sauter mean
+   * diameter <d>, which gives that of a sphere of diameter @p y <d> in a mixture of void
+   * fraction @p alpha [-]:
+   *
+   *   y (alpha y + (1 - alpha) y^2).
+   *
+   * The sum over all spheres is that of equal ones of the Sauter mean diameter and the
+   * same volume, for any mixture. The cubic term that the source fits to simulations,
+   * which is not 0 for equal spheres, is left out.
+   * Source: van der Hoef, Beetstra & Kuipers, J. Fluid Mech. 528 (2005) 233,
+   * doi:10.1017/S0022112004003295.
+   */
+  double polydisperse_drag_factor(const double alpha, const double y);
 } // namespace graupel
 
 #endif

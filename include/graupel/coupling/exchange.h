@@ -13,10 +13,22 @@ namespace graupel
   /** The drag on the particles of one type. */
   struct DragOfType
   {
-    /** For a sphere of this radius; for others of the type in proportion. */
+    /** For a sphere of this radius. */
     Drag drag;
     /** Radius of that simulated sphere [m]. */
     double radius;
+    /** Others: by polydisperse_drag_factor(), or each by the law for its own diameter. */
+    bool is_mixture = false;
+
+    /** beta_p [kg/s] of a simulated sphere of this @p particle_radius [m]; see
+     * Drag::beta(). */
+    double
+    beta(const double alpha, const double slip, const double particle_radius) const
+    {
+      const double y = particle_radius / radius;
+      return is_mixture ? polydisperse_drag_factor(alpha, y) * drag.beta(alpha, slip)
+                        : drag.beta(alpha, slip, y);
+    }
   };
 
   /** How particles and fluid feel each other, beside the drag law. */
@@ -30,6 +42,8 @@ namespace graupel
     /** "sharp": the drag law does not see that the filter smears the bed's surface;
      * "smeared": it does. */
     std::string bed_surface = "sharp";
+    /** "sauter mean" or "own diameter": how a mixture of sizes feels the drag. */
+    std::string mixture = "sauter mean";
 
     /** Declares the section "Coupling". */
     void declare(dealii::ParameterHandler &prm);

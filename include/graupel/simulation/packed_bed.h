@@ -73,6 +73,9 @@ namespace graupel
     void       adapt_mesh();
     void       adapt_if_due();
     void       move_particles(const double step);
+    // Holds the bed against the force of a steady flow, which grows from @p force_before
+    // [N], so that bottom and wall carry what the fluid leaves them; ends where the bed
+    // rises.
     void       hold_particles(const double force_before);
     void       set_velocity_on_ramp(const double time_in_case);
     void       record_monitor(const unsigned int number);
