@@ -389,7 +389,9 @@ def page(runs, folder, figures, plain, corrected, runs_by_scale):
         "\nOnset is where the line of the fixed bed, a V + b V² through the cases in which the"
         " fluid carries less than 86 % of the weight, meets the weight less buoyancy over the"
         " cross-section, as it is measured in the laboratory. Ergun's onset is for the bed at"
-        " rest. The plateau is the mean over the cases in which the fluid carries the bed.\n",
+        " rest. The plateau is the mean in time over the cases in which the fluid carries the bed:"
+        " it goes up and down as a slug, and drops a little less than its weight as the wall"
+        " carries some of it.\n",
         "## Cost\n",
         cost_table(runs),
         "\n## Any scale\n",

@@ -12,6 +12,10 @@ from report_parts.run_output import read_run
 # Fixed-bed cases: the fluid carries less than this part of the weight. Beyond, the bed
 # has begun to loosen.
 FIXED = 0.86
+# The fluid carries the bed: this part of its weight in the mean.
+CARRIED = 0.975
+# Time in a case after which a lifted bed goes up and down [s].
+SLUG_BEGINS = 0.15
 GRAVITY = 9.81
 
 
@@ -111,9 +115,18 @@ def ergun_onset(run, void_fraction=None, height=None):
 
 
 def plateau(run):
-    """Mean drop [Pa] of the cases in which the fluid carries the bed, over the drop that does
-    so [-]; None without such a case."""
-    lifted = [case for case in run.cases if case["fluid_force"] > 0.985 * case["weight"]]
-    if not lifted:
-        return None
-    return float(np.mean([case["pressure_drop"] for case in lifted])) / supported_drop(run)
+    """Pressure drop in time and case mean over the cases in which the fluid carries the bed,
+    over the drop that does so [-]; None without such a case.
+
+    A lifted bed in a narrow vessel rises and falls as a slug, so the mean takes the whole case
+    but its beginning, and not its last quarter alone."""
+    drops = []
+    for case in run.cases:
+        rows = (run.monitors["case"] == case["number"]) & (run.monitors["phase"] == "flow")
+        time = run.monitors["time"][rows]
+        later = time > time[0] + SLUG_BEGINS
+        if not np.any(later):
+            continue  # a resting bed has one row
+        if np.mean(run.monitors["fluid_force"][rows][later]) > CARRIED * case["weight"]:
+            drops.append(np.mean(run.monitors["pressure_drop"][rows][later]))
+    return float(np.mean(drops)) / supported_drop(run) if drops else None
