@@ -1,0 +1,103 @@
+#!/usr/bin/python3
+"""Tests what scripts/paper.py makes of runs: onset, plateau, and the particles it draws."""
+
+import base64
+import math
+import pathlib
+import struct
+import sys
+import tempfile
+import unittest
+import zlib
+
+sys.dont_write_bytecode = True
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "scripts"))
+
+import numpy as np
+
+from paper_parts import particles, runs
+from report_parts.run_output import RunOutput
+
+AREA = math.pi * 0.025**2 / 4.0
+A, B, WEIGHT = 700.0, 1700.0, 0.48
+
+
+def fixed_bed(velocity):
+    """Pressure drop of the made-up bed [Pa]."""
+    return A * velocity + B * velocity**2
+
+
+def a_run(velocities, buoyancy=0.0):
+    """A run whose bed drops a V + b V^2 until the fluid carries it."""
+    run = RunOutput(pathlib.Path("nowhere"))
+    solid = buoyancy / (runs.GRAVITY * 1.2)
+    run.summary = {
+        "bed": {"vessel_diameter": 0.025, "solid_volume": solid},
+        "fluid": {"density": 1.2},
+    }
+    rows = []
+    for number, velocity in enumerate(velocities, start=1):
+        drop = min(fixed_bed(velocity), (WEIGHT - buoyancy) / AREA)
+        fluid = drop * AREA + buoyancy
+        run.cases.append(
+            {
+                "number": number,
+                "superficial_velocity": velocity,
+                "pressure_drop": drop,
+                "fluid_force": fluid,
+                "weight": WEIGHT,
+            }
+        )
+        rows += [(number, 0.01 * step + number, drop, fluid) for step in range(40)]
+    columns = list(zip(*rows))
+    run.monitors = {
+        name: np.array(values, dtype=float)
+        for name, values in zip(("case", "time", "pressure_drop", "fluid_force"), columns)
+    }
+    run.monitors["phase"] = np.full(len(rows), "flow")
+    return run
+
+
+class Onset(unittest.TestCase):
+    """Of a bed whose onset is known."""
+
+    def test_line_of_the_fixed_bed_meets_the_weight(self):
+        for buoyancy in (0.0, 0.01):
+            run = a_run((0.2, 0.3, 0.4, 0.9), buoyancy)
+            self.assertAlmostEqual(fixed_bed(runs.onset(run)), (WEIGHT - buoyancy) / AREA, places=6)
+
+    def test_plateau(self):
+        self.assertAlmostEqual(runs.plateau(a_run((0.2, 0.9, 1.0))), 1.0, places=12)
+        self.assertIsNone(runs.plateau(a_run((0.2, 0.3))))
+
+
+class Particles(unittest.TestCase):
+    """The ParaView files of two ranks."""
+
+    @staticmethod
+    def encoded(values):
+        raw = np.asarray(values, "<f4").tobytes()
+        block = zlib.compress(raw)
+        header = struct.pack("<4I", 1, len(raw), len(raw), len(block))
+        return base64.b64encode(header).decode() + base64.b64encode(block).decode()
+
+    def test_all_pieces_are_read(self):
+        first = [[0.0, 1.0, 2.0], [3.0, 4.0, 5.0]]
+        second = [[6.0, 7.0, 8.0]]
+        pieces = "".join(
+            '<Piece><Points><DataArray type="Float32" NumberOfComponents="3">'
+            f"\n{self.encoded(points)}\n</DataArray></Points></Piece>"
+            for points in (first, second)
+        )
+        with tempfile.TemporaryDirectory() as folder:
+            (pathlib.Path(folder) / "vtu").mkdir()
+            (pathlib.Path(folder) / "vtu" / "particles_0000.0.vtu").write_text(
+                f'<?xml version="1.0" ?>\n<!-- made -->\n<VTKFile>{pieces}</VTKFile>',
+                encoding="ascii",
+            )
+            read = particles.positions(pathlib.Path(folder))
+        np.testing.assert_array_equal(read, first + second)
+
+
+if __name__ == "__main__":
+    unittest.main()
