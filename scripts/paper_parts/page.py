@@ -16,6 +16,16 @@ from .runs import (
 )
 
 COMMAND = "scripts/reproduce-paper"
+# What each part of the page is made of; the command of each run stands in that script.
+SOURCES = (
+    ("Table 1, figures 3, 4, 6 to 9, 11, 12, cost", "`1x`, `2x`, `2x-printed`"),
+    ("Onset, figures 5, 6, 10, 11", "`1x-onset`, `2x-onset`, `1x-onset-aluminium`,"
+     " `2x-onset-aluminium`"),
+    ("Any scale", "`1x`, `1.5x`, `ladder/level-3`, `-2`, `-1`, `50mm`"),
+    ("The original bed", "`original-bed/level-3`, `-2`, `-1`, `2x-original-onset` and so on"),
+    ("The ladder", "`ladder/study.csv`, `1x`"),
+    ("The resting bed", "`2x`, `2x-moving`"),
+)
 
 
 def percent(value, digits=1):
@@ -412,6 +422,8 @@ def page(runs, folder, figures, plain, corrected, runs_by_scale):
         " difference between parabola and line.\n",
         "## The resting bed\n",
         frozen_table(runs),
+        "\n## Where the numbers come from\n",
+        table(["part", f"runs of `{COMMAND}`, in its directory of results"], SOURCES),
         "\n## Figures\n",
     ]
     parts += [image(name, text) for name, text in figures]
