@@ -12,8 +12,8 @@ from report_parts.run_output import read_run
 # Fixed-bed cases: the fluid carries less than this part of the weight. Beyond, the bed
 # has begun to loosen.
 FIXED = 0.86
-# The fluid carries the bed: this part of its weight in the mean.
-CARRIED = 0.975
+# The fluid carries the bed: the bottom has less than this part of its weight in the mean.
+LEFT_ON_BOTTOM = 0.05
 # Time in a case after which a lifted bed goes up and down [s].
 SLUG_BEGINS = 0.15
 GRAVITY = 9.81
@@ -127,6 +127,7 @@ def plateau(run):
         later = time > time[0] + SLUG_BEGINS
         if not np.any(later):
             continue  # a resting bed has one row
-        if np.mean(run.monitors["fluid_force"][rows][later]) > CARRIED * case["weight"]:
+        bottom = np.mean(run.monitors["bottom_force"][rows][later])
+        if bottom < LEFT_ON_BOTTOM * case["weight"]:
             drops.append(np.mean(run.monitors["pressure_drop"][rows][later]))
     return float(np.mean(drops)) / supported_drop(run) if drops else None

@@ -48,11 +48,12 @@ def a_run(velocities, buoyancy=0.0):
                 "weight": WEIGHT,
             }
         )
-        rows += [(number, 0.01 * step + number, drop, fluid) for step in range(40)]
+        bottom = WEIGHT - fluid
+        rows += [(number, 0.01 * step + number, drop, bottom) for step in range(40)]
     columns = list(zip(*rows))
     run.monitors = {
         name: np.array(values, dtype=float)
-        for name, values in zip(("case", "time", "pressure_drop", "fluid_force"), columns)
+        for name, values in zip(("case", "time", "pressure_drop", "bottom_force"), columns)
     }
     run.monitors["phase"] = np.full(len(rows), "flow")
     return run
