@@ -114,6 +114,16 @@ def ergun_onset(run, void_fraction=None, height=None):
     )
 
 
+def rise(run, case):
+    """How much higher the bed is than at rest, median over the case without its beginning [m]:
+    at a single moment a slugging bed may have come apart."""
+    rows = (run.monitors["case"] == case["number"]) & (run.monitors["phase"] == "flow")
+    time = run.monitors["time"][rows]
+    later = (time > time[0] + SLUG_BEGINS) | (time == time[-1])
+    height = run.monitors["bed_height"][rows][later]
+    return float(np.median(height)) - run.number("bed", "height")
+
+
 def plateau(run):
     """Pressure drop in time and case mean over the cases in which the fluid carries the bed,
     over the drop that does so [-]; None without such a case.

@@ -89,9 +89,10 @@ namespace graupel
     for (std::size_t k = 1; k < computations.size(); ++k)
       if (computations[k].size == computations[k - 1].size)
         throw std::invalid_argument("Two computations have the same size.");
-    const double value  = polynomial_value(computations, 0, to);
-    const double form   = value - polynomial_value(computations, 1, to);
-    double       square = form * form;
+    const double value = polynomial_value(computations, 0, to);
+    const double form =
+      factor_of_safety * (value - polynomial_value(computations, 1, to));
+    double square = form * form;
     for (std::size_t k = 0; k < computations.size(); ++k)
       {
         const double part = lagrange_weight(computations, 0, k, to) * standard_errors[k];

