@@ -22,7 +22,7 @@ from report_parts.style import (
 )
 
 from .particles import positions
-from .runs import drop_at, fixed_cases, supported_drop
+from .runs import fixed_cases, over, supported_drop
 
 
 SPHERE = np.array([0.36, 0.55, 0.72])
@@ -243,14 +243,10 @@ def original_bed(reference_run, plain, corrected):
     ):
         for scale, run in group:
             cases = fixed_cases(run)
-            ratio = [
-                case["pressure_drop"] / drop_at(reference_run, case["superficial_velocity"])
-                for case in cases
-            ]
             plot_cases(
                 axes,
                 cases,
-                (np.array(ratio) - 1.0) * PERCENT,
+                np.array(over(reference_run, run)) * PERCENT,
                 colours[scale],
                 f"s = {scale}, {label}",
                 marker,

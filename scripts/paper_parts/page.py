@@ -2,7 +2,7 @@
 
 import csv
 
-from report_parts.reference import FINDINGS, PAPER_VESSEL, ergun_curve, paper_for
+from report_parts.reference import PAPER_VESSEL, ergun_curve, paper_for
 from report_parts.style import MILLI, PERCENT
 
 from .runs import (
@@ -11,6 +11,7 @@ from .runs import (
     ergun_onset,
     fixed_cases,
     onset,
+    over,
     plateau,
     rise,
     supported_drop,
@@ -168,18 +169,13 @@ def line_by_line(runs):
             [
                 f"{scale}X: case 6 below Ergun"
                 + (" by nearly 12 %" if scale == 1 else ""),
-                f"{percent(at['pressure_drop'] / drop_at_rest(light, paper.velocity[-1]) - 1.0)}"
+                f"{percent(at['pressure_drop'] / ergun_curve(light, paper.velocity[-1]) - 1.0)}"
                 " from Ergun for the bed at rest",
                 "in kind",
                 "a lifted bed drops its weight over the cross-section, whatever V_s",
             ],
         ]
     return table(["the paper", "here", "agrees", "why"], rows)
-
-
-def drop_at_rest(run, velocity):
-    """Ergun's drop [Pa] for the bed before the flow."""
-    return float(ergun_curve(run, velocity))
 
 
 def onset_table(runs):
@@ -234,7 +230,7 @@ def cost_table(runs):
             [
                 f"{scale}X",
                 f"{min(each):.0f} to {max(each):.0f} s",
-                FINDINGS[scale][5],
+                paper_for(run).cpu_hours,
                 f"{run.number('cost', 'wall_seconds') / 60.0:.1f} min",
                 f"{run.number('cost', 'cpu_seconds') / 60.0:.1f} min",
             ]
@@ -280,21 +276,13 @@ def original_table(runs, plain, corrected):
     one, light = runs["1x"], runs["1x-onset"]
     rows = []
     for (scale, run), (_, other) in zip(corrected, plain):
-        ratio = [
-            case["pressure_drop"] / drop_at(one, case["superficial_velocity"]) - 1.0
-            for case in fixed_cases(run)
-        ]
-        without = [
-            case["pressure_drop"] / drop_at(one, case["superficial_velocity"]) - 1.0
-            for case in fixed_cases(other)
-        ]
         sweep = runs[f"{scale}x-original-onset"]
         rows.append(
             [
                 scale,
                 f"{run.number('bed', 'original_solid_ratio'):.4f}",
-                span(without),
-                span(ratio),
+                span(over(one, other)),
+                span(over(one, run)),
                 f"{onset(sweep):.4f}",
                 percent(onset(sweep) / onset(light) - 1.0),
             ]
@@ -320,7 +308,7 @@ def ladder_table(runs):
         if row["extrapolated"] is None or not row["quantity"].startswith("pressure drop at "):
             continue
         velocity = float(row["quantity"].split()[3])
-        true = case_or_drop(one, velocity)
+        true = drop_at(one, velocity)
         error = row["extrapolated"] * row["grid_convergence_index"]
         rows.append(
             [
@@ -331,14 +319,6 @@ def ladder_table(runs):
             ]
         )
     return table(["V_s [m/s]", "ladder s = 4, 3, 2 to 1 [Pa]", "1X [Pa]", "inside"], rows)
-
-
-def case_or_drop(run, velocity):
-    """The computed drop [Pa] at a velocity, or one between the cases."""
-    try:
-        return case_at(run, velocity)["pressure_drop"]
-    except KeyError:
-        return drop_at(run, velocity)
 
 
 def frozen_table(runs):

@@ -77,8 +77,17 @@ def supported_drop(run):
     cross-section."""
     density = run.number("fluid", "density")
     solid = run.number("bed", "solid_volume")
-    area = math.pi * run.number("bed", "vessel_diameter") ** 2 / 4.0
-    return (run.cases[0]["weight"] - density * GRAVITY * solid) / area
+    weight = run.cases[0]["weight"]
+    return reference.weight_per_area(run) * (1.0 - density * GRAVITY * solid / weight)
+
+
+def over(reference_run, run):
+    """Pressure drop of the fixed-bed cases of @p run over that of another run at the same
+    velocities, less 1 [-]."""
+    return [
+        case["pressure_drop"] / drop_at(reference_run, case["superficial_velocity"]) - 1.0
+        for case in fixed_cases(run)
+    ]
 
 
 def velocity_of(drop, of_velocity):
@@ -100,27 +109,24 @@ def onset(run):
     return velocity_of(supported_drop(run), lambda velocity: a * velocity + b * velocity**2)
 
 
-def ergun_onset(run, void_fraction=None, height=None):
-    """Onset by Ergun's equation for the bed at rest, or for another one [m/s]."""
-    values = (
-        height or run.number("bed", "height"),
-        void_fraction or run.number("bed", "mean_void_fraction"),
-        run.number("bed", "original_diameter"),
-        run.number("fluid", "density"),
-        run.number("fluid", "viscosity"),
-    )
+def ergun_onset(run):
+    """Onset by Ergun's equation for the bed at rest [m/s]."""
     return velocity_of(
-        supported_drop(run), lambda velocity: reference.ergun_pressure_drop(velocity, *values)
+        supported_drop(run), lambda velocity: reference.ergun_curve(run, velocity)
     )
+
+
+def later_rows(run, case):
+    """Which rows of the monitors belong to a case without its beginning; the last one does."""
+    rows = (run.monitors["case"] == case["number"]) & (run.monitors["phase"] == "flow")
+    time = run.monitors["time"]
+    return rows & ((time > time[rows][0] + SLUG_BEGINS) | (time == time[rows][-1]))
 
 
 def rise(run, case):
     """How much higher the bed is than at rest, median over the case without its beginning [m]:
     at a single moment a slugging bed may have come apart."""
-    rows = (run.monitors["case"] == case["number"]) & (run.monitors["phase"] == "flow")
-    time = run.monitors["time"][rows]
-    later = (time > time[0] + SLUG_BEGINS) | (time == time[-1])
-    height = run.monitors["bed_height"][rows][later]
+    height = run.monitors["bed_height"][later_rows(run, case)]
     return float(np.median(height)) - run.number("bed", "height")
 
 
@@ -132,12 +138,9 @@ def plateau(run):
     but its beginning, and not its last quarter alone."""
     drops = []
     for case in run.cases:
-        rows = (run.monitors["case"] == case["number"]) & (run.monitors["phase"] == "flow")
-        time = run.monitors["time"][rows]
-        later = time > time[0] + SLUG_BEGINS
-        if not np.any(later):
+        rows = later_rows(run, case)
+        if np.count_nonzero(rows) < 2:
             continue  # a resting bed has one row
-        bottom = np.mean(run.monitors["bottom_force"][rows][later])
-        if bottom < LEFT_ON_BOTTOM * case["weight"]:
-            drops.append(np.mean(run.monitors["pressure_drop"][rows][later]))
+        if np.mean(run.monitors["bottom_force"][rows]) < LEFT_ON_BOTTOM * case["weight"]:
+            drops.append(np.mean(run.monitors["pressure_drop"][rows]))
     return float(np.mean(drops)) / supported_drop(run) if drops else None
