@@ -118,7 +118,7 @@ namespace graupel
     , result(nodes)
   {
     result.shares_pressure = shares_pressure;
-    for (NodalVector *field : {&solid_fraction, &scratch, &bed, &smooth_bed})
+    for (NodalVector *field : {&solid_fraction, &scratch, &smooth_scratch})
       nodes.initialize(*field);
     for (NodalVectorField *field : {&interstitial, &smooth_velocity, &smooth_gradient})
       for (NodalVector &component : *field)
@@ -193,17 +193,18 @@ namespace graupel
       dealii::Utilities::MPI::sum(static_cast<double>(alpha.size()), communicator);
     const double mean = std::max(solid / std::max(1., n), 1e-6);
 
-    for (unsigned int k = 0; k < bed.locally_owned_size(); ++k)
+    for (unsigned int k = 0; k < scratch.locally_owned_size(); ++k)
       {
-        const double share   = solid_fraction.local_element(k) / mean;
-        bed.local_element(k) = std::clamp((share - outside) / (inside - outside), 0., 1.);
+        const double share = solid_fraction.local_element(k) / mean;
+        scratch.local_element(k) =
+          std::clamp((share - outside) / (inside - outside), 0., 1.);
       }
-    bed.update_ghost_values();
-    filter.smooth(smooth_bed, bed);
+    scratch.update_ghost_values();
+    filter.smooth(smooth_scratch, scratch);
 
     std::vector<double> chi, smooth_chi;
-    transfer.sample(chi, bed);
-    transfer.sample(smooth_chi, smooth_bed);
+    transfer.sample(chi, scratch);
+    transfer.sample(smooth_chi, smooth_scratch);
     for (unsigned int row = 0; row < chi.size(); ++row)
       chi[row] = smooth_chi[row] > 0. ? std::max(1., chi[row] / smooth_chi[row]) : 1.;
     return chi;
@@ -227,9 +228,9 @@ namespace graupel
     for (unsigned int k = 0; k < scratch.locally_owned_size(); ++k)
       scratch.local_element(k) =
         std::pow(result.void_fraction.local_element(k), exponent);
-    filter.smooth(smooth_bed, scratch);
+    filter.smooth(smooth_scratch, scratch);
     std::vector<double> values;
-    transfer.sample(values, smooth_bed);
+    transfer.sample(values, smooth_scratch);
     return values;
   }
 
@@ -244,7 +245,8 @@ namespace graupel
       transfer.sample(velocity[i], smooth_velocity[i]);
     const std::vector<double> law_alpha = law_void_fractions(alpha);
     const std::vector<double> of_slip   = smooth_power(-1);
-    const std::vector<double> of_drag   = smooth_power(result.shares_pressure ? -2 : -1);
+    const std::vector<double> of_drag =
+      result.shares_pressure ? smooth_power(-2) : of_slip;
 
     beta.resize(n);
     for (unsigned int row = 0; row < n; ++row)

@@ -69,6 +69,13 @@ namespace graupel
       "comes");
   }
 
+  bool
+  SettlingParameters::is_met_by(const Dem &dem) const
+  {
+    return dem.maximum_speed() < speed &&
+           dem.mean_translational_energy() < kinetic_energy;
+  }
+
   Settling::Settling(const SettlingParameters &parameters, Dem &dem)
     : input(parameters)
     , dem(dem)
@@ -100,8 +107,7 @@ namespace graupel
   {
     dem.advance(input.interval);
     elapsed += input.interval;
-    return dem.maximum_speed() < input.speed &&
-           dem.mean_translational_energy() < input.kinetic_energy;
+    return input.is_met_by(dem);
   }
 
   bool

@@ -161,11 +161,9 @@ namespace graupel
         const double force = coupled->exchange().total_force()[2];
         if (must_rest && force > most_carried * dem.weight())
           break;
-        const double height = observables.bed().height;
-        hold_particles(force_before);
+        const double shift = std::abs(hold_particles(force_before));
         force_before       = force;
-        const double shift = std::abs(observables.bed().height / height - 1.);
-        if (must_rest && (shift > moved || !is_at_rest()))
+        if (must_rest && (shift > moved || !parameters.settling.is_met_by(dem)))
           {
             ramp_from = case_velocity;
             break;
@@ -183,17 +181,11 @@ namespace graupel
     return false;
   }
 
-  bool
-  PackedBed::is_at_rest() const
-  {
-    return dem.maximum_speed() < parameters.settling.speed &&
-           dem.mean_translational_energy() < parameters.settling.kinetic_energy;
-  }
-
-  void
+  double
   PackedBed::hold_particles(const double force_before)
   {
     const double height = observables.bed().height;
+    const auto   change = [&]() { return observables.bed().height / height - 1.; };
     const double force  = coupled->exchange().total_force()[2];
     const double before = std::clamp(force > 0. ? force_before / force : 0., 0., 1.);
     const double ramp   = parameters.sweep.ramp_time;
@@ -208,10 +200,10 @@ namespace graupel
           f *= factor / last;
         last = factor;
         move_particles(end / n);
-        if (parameters.sweep.mode == "automatic" &&
-            observables.bed().height > height * (1. + moved))
-          return;
+        if (parameters.sweep.mode == "automatic" && change() > moved)
+          break;
       }
+    return change();
   }
 
   double

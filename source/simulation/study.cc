@@ -29,7 +29,7 @@ namespace graupel
       count = static_cast<unsigned int>(std::lround(count / std::pow(growth, 3)));
       if (parameters.coupling.filter_length != "auto")
         parameters.coupling.filter_length =
-          text_of(std::stod(parameters.coupling.filter_length) * growth);
+          text_of(parameters.filter_length() * growth);
       for (ParticleType &type : parameters.dem.particles.further_types)
         type.scale *= growth;
       parameters.dem.particles.scale = scale;

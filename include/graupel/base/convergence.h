@@ -54,8 +54,9 @@ namespace graupel
    * The value at the size @p to of the polynomial through two or more computations, with
    * their @p standard_errors propagated (by Lagrange's weights) and, added in
    * quadrature, the difference to the polynomial without the first, coarsest one, times
-   * the same factor of safety 1.25, as the error of the form. Throws std::invalid_argument for fewer than two, unequal
-   * numbers of both, or sizes that repeat.
+   * the same factor of safety 1.25, as the error of the form. Throws
+   * std::invalid_argument for fewer than two, unequal numbers of both, or sizes that
+   * repeat.
    */
   Estimate extrapolate(const std::vector<Computation> &computations,
                        const std::vector<double>      &standard_errors,

@@ -183,8 +183,7 @@ namespace graupel
     const Filter                  filter;
     ParticleTransfer              transfer;
     Medium                        result;
-    NodalVector                   solid_fraction, scratch;
-    NodalVector                   bed, smooth_bed; // chi, S chi [-]
+    NodalVector                   solid_fraction, scratch, smooth_scratch;
 
     NodalVectorField     interstitial;    // u [m/s]
     NodalVectorField     smooth_velocity; // S u [m/s]

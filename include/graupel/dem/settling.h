@@ -24,6 +24,9 @@ namespace graupel
     /** Declares the section "Settling". */
     void declare(dealii::ParameterHandler &prm);
     void check() const;
+
+    /** Whether the bed is at rest. Collective. */
+    bool is_met_by(const Dem &dem) const;
   };
 
   /**

@@ -67,16 +67,15 @@ namespace graupel
     void       run_transient(const unsigned int number, const double duration);
     // False, in the mode automatic, if the bed does not rest against the flow.
     bool       run_steady(const unsigned int number);
-    bool       is_at_rest() const;
     double     next_step(const double remaining) const;
     double     step_fluid(double step);
     void       adapt_mesh();
     void       adapt_if_due();
     void       move_particles(const double step);
     // Holds the bed against the force of a steady flow, which grows from @p force_before
-    // [N], so that bottom and wall carry what the fluid leaves them; ends where the bed
-    // rises.
-    void       hold_particles(const double force_before);
+    // [N], so that bottom and wall carry what the fluid leaves them; in the mode automatic
+    // it ends where the bed rises. Relative change of the height [-].
+    double       hold_particles(const double force_before);
     void       set_velocity_on_ramp(const double time_in_case);
     void       record_monitor(const unsigned int number);
     MonitorRow monitor(const std::string &phase) const;
