@@ -3,6 +3,10 @@
 
 #include <deal.II/base/exceptions.h>
 
+#include <boost/algorithm/string/join.hpp>
+#include <boost/lexical_cast/try_lexical_convert.hpp>
+
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <numeric>
@@ -227,6 +231,21 @@ namespace graupel
   {
     if (!condition)
       throw InputError(parameter, reason);
+  }
+
+  std::optional<double>
+  number_or_word(const std::string              &parameter,
+                 const std::string              &text,
+                 const std::vector<std::string> &words)
+  {
+    if (std::find(words.begin(), words.end(), text) != words.end())
+      return {};
+    double value;
+    if (boost::conversion::try_lexical_convert(text, value))
+      return value;
+    throw InputError(parameter,
+                     in_quotes(text) + " is neither a number nor " +
+                       boost::algorithm::join(words, " nor "));
   }
 
   ParameterFile::ParameterFile(dealii::ParameterHandler &handler)

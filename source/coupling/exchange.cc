@@ -75,30 +75,16 @@ namespace graupel
     // A standard deviation of one diameter: with less, the solid fraction at a particle
     // is no longer that of its surroundings; with more, the bed's surface is
     // smeared further (doc/design.md).
-    if (filter_length == "auto")
-      return simulated_diameter / std::sqrt(2.);
-    std::size_t  end   = 0;
-    const double value = std::stod(filter_length, &end);
-    if (end != filter_length.size())
-      throw std::invalid_argument(filter_length);
-    return value;
+    return number_or_word("Coupling/filter length", filter_length, {"auto"})
+      .value_or(simulated_diameter / std::sqrt(2.));
   }
 
   void
   CouplingParameters::check() const
   {
-    const std::string name  = "Coupling/filter length";
-    double            value = -1.;
-    try
-      {
-        value = length(1.);
-      }
-    catch (const std::exception &)
-      {
-        require(false, name, "is neither a length in metres nor the word auto");
-      }
+    const double value = length(1.);
     require(value >= 0. && std::isfinite(value),
-            name,
+            "Coupling/filter length",
             "a filter cannot have a negative length; 0 switches it off, auto makes "
             "the filter one particle diameter wide");
   }
@@ -129,20 +115,14 @@ namespace graupel
   }
 
   void
-  Exchange::update(const ParticleStore &store, const ParticleArrays &particles)
-  {
-    update_void_fraction(store, particles);
-    const CostSheet::Scope timing(costs, CostSheet::exchange);
-    deposit_drag(particles);
-  }
-
-  void
-  Exchange::update_void_fraction(const ParticleStore  &store,
-                                 const ParticleArrays &particles)
+  Exchange::update_bed(const ParticleStore &store, const ParticleArrays &particles)
   {
     const CostSheet::Scope timing(costs, CostSheet::void_fraction);
     transfer.update(store);
     deposit_void_fraction(particles);
+    law_alpha = law_void_fractions();
+    of_slip   = smooth_power(-1);
+    of_drag   = result.shares_pressure ? smooth_power(-2) : of_slip;
   }
 
   void
@@ -211,8 +191,10 @@ namespace graupel
   }
 
   std::vector<double>
-  Exchange::law_void_fractions(const std::vector<double> &alpha)
+  Exchange::law_void_fractions()
   {
+    std::vector<double> alpha;
+    transfer.sample(alpha, result.void_fraction);
     std::vector<double> factor(alpha.size(), 1.);
     if (law.sharp_surface)
       factor = surface_factors(alpha);
@@ -235,18 +217,13 @@ namespace graupel
   }
 
   void
-  Exchange::deposit_drag(const ParticleArrays &particles)
+  Exchange::update_drag(const ParticleArrays &particles)
   {
+    const CostSheet::Scope             timing(costs, CostSheet::exchange);
     const unsigned int                 n = particles.n_owned;
-    std::vector<double>                alpha;
     std::array<std::vector<double>, 3> velocity;
-    transfer.sample(alpha, result.void_fraction);
     for (unsigned int i = 0; i < 3; ++i)
       transfer.sample(velocity[i], smooth_velocity[i]);
-    const std::vector<double> law_alpha = law_void_fractions(alpha);
-    const std::vector<double> of_slip   = smooth_power(-1);
-    const std::vector<double> of_drag =
-      result.shares_pressure ? smooth_power(-2) : of_slip;
 
     beta.resize(n);
     for (unsigned int row = 0; row < n; ++row)

@@ -60,7 +60,7 @@ namespace graupel
   CoupledFlow::look_at_bed()
   {
     dem.synchronise();
-    particles_and_fluid->update_void_fraction(dem.store(), dem.particles());
+    particles_and_fluid->update_bed(dem.store(), dem.particles());
   }
 
   bool
@@ -110,7 +110,7 @@ namespace graupel
         field.update_ghost_values();
       }
     const NodalVectorField flux{fields[0], fields[1], fields[2]};
-    particles_and_fluid->update_void_fraction(dem.store(), dem.particles());
+    particles_and_fluid->update_bed(dem.store(), dem.particles());
     particles_and_fluid->follow(flux, exchange().medium().void_fraction);
     solver->set_superficial_velocity(superficial_velocity);
     solver->set_time(time);
@@ -148,8 +148,14 @@ namespace graupel
   FlowSolver::Report
   CoupledFlow::step(const double step)
   {
-    dem.synchronise();
-    particles_and_fluid->update(dem.store(), dem.particles());
+    look_at_bed();
+    return flow_past_bed(step);
+  }
+
+  FlowSolver::Report
+  CoupledFlow::flow_past_bed(const double step)
+  {
+    particles_and_fluid->update_drag(dem.particles());
     const auto report = solver->step(particles_and_fluid->medium(), step);
     dem.particles().external_force =
       particles_and_fluid->forces(dem.particles(),
@@ -162,10 +168,11 @@ namespace graupel
   FlowSolver::Report
   CoupledFlow::find_steady_state(const std::function<void(const double)> &tell)
   {
+    look_at_bed();
     unsigned int iterations = 0;
     for (unsigned int n = 1; n <= parameters.sweep.maximum_solves; ++n)
       {
-        auto report = step(FlowSolver::steady);
+        auto report = flow_past_bed(FlowSolver::steady);
         iterations += report.iterations;
         tell(report.change);
         if (report.change <= parameters.flow.nonlinear_tolerance)

@@ -1,6 +1,7 @@
 #include <graupel/closures/bed_correlations.h>
 #include <graupel/dem/dem.h>
 #include <graupel/simulation/original_bed.h>
+#include <graupel/simulation/packing.h>
 
 #include <iomanip>
 #include <sstream>
@@ -24,20 +25,11 @@ namespace graupel
     SettlingParameters settling   = parameters.settling;
     settling.target_void_fraction = parameters.original_bed.target_void_fraction;
 
-    VesselMesh mesh(parameters.cylinder, parameters.mesh, communicator);
-    Dem        dem(particles, mesh, costs);
-    {
-      Filling phase(filling, dem);
-      progress.start_phase("original bed: fill", 0., 1.);
-      while (phase.step())
-        progress.update(phase.progress());
-      progress.finish_phase();
-    }
-    Settling phase(settling, dem);
-    progress.start_phase("original bed: settle", 0., settling.maximum_time);
-    while (phase.step())
-      progress.update(phase.time());
-    progress.finish_phase();
+    VesselMesh        mesh(parameters.cylinder, parameters.mesh, communicator);
+    Dem               dem(particles, mesh, costs);
+    const std::string name = "original bed: ";
+    fill_vessel(filling, dem, progress, name);
+    settle_bed(settling, dem, progress, name);
 
     const auto bed = BedObservables(dem.particles(), dem.cylinder(), communicator).bed();
     std::ostringstream text;

@@ -1,9 +1,6 @@
 #include <graupel/base/parameters.h>
 #include <graupel/simulation/original_bed_parameters.h>
 
-#include <algorithm>
-#include <array>
-
 namespace graupel
 {
   void
@@ -34,31 +31,19 @@ namespace graupel
   std::optional<double>
   OriginalBedParameters::number() const
   {
-    const std::array<std::string, 3> words{"simulated", "correlation", "measured"};
-    if (std::find(words.begin(), words.end(), void_fraction) != words.end())
-      return {};
-    std::size_t  end   = 0;
-    const double value = std::stod(void_fraction, &end);
-    if (end != void_fraction.size())
-      throw std::invalid_argument(void_fraction);
-    return value;
+    return number_or_word("Original bed/void fraction",
+                          void_fraction,
+                          {"simulated", "correlation", "measured"});
   }
 
   void
   OriginalBedParameters::check() const
   {
-    double value = -1.;
-    try
-      {
-        value = number().value_or(0.4);
-      }
-    catch (const std::exception &)
-      {
-      }
+    const double value = number().value_or(0.4);
     require(value >= 0.26 && value < 1.,
             "Original bed/void fraction",
-            "is neither simulated, correlation or measured nor a void fraction from 0.26 "
-            "(the densest order) to 1");
+            "a bed of equal spheres has a void fraction from 0.26 (the densest order) to "
+            "1");
     require(measured_height > 0.,
             "Original bed/measured height",
             "a height is positive, in metres; one and a half vessel diameters suffice");

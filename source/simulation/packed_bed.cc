@@ -1,5 +1,6 @@
 #include <graupel/simulation/original_bed.h>
 #include <graupel/simulation/packed_bed.h>
+#include <graupel/simulation/packing.h>
 
 #include <ctime>
 #include <iomanip>
@@ -9,9 +10,6 @@ namespace graupel
 {
   namespace
   {
-    // While there is no fluid: simulated time between two looks at how particles
-    // are spread over the ranks [s].
-    constexpr double balance_interval = 0.1;
     // With fluid: cost of a cell in one step of the fluid, in substeps of one
     // particle (50 microseconds over 30 nanoseconds).
     constexpr double particle_substeps_of_cell = 1700.;
@@ -68,10 +66,10 @@ namespace graupel
     else
       {
         if (parameters.filling.start_from.empty())
-          fill();
+          time = fill_vessel(parameters.filling, dem, progress);
         else
           take_bed();
-        settle();
+        time += settle_bed(parameters.settling, dem, progress);
         present_bed();
         save();
       }
@@ -88,15 +86,6 @@ namespace graupel
   PackedBed::cpu_seconds() const
   {
     return cpu_before + static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
-  }
-
-  void
-  PackedBed::balance_if_due()
-  {
-    if (time < next_balance)
-      return;
-    dem.balance(share_of_empty_cell);
-    next_balance = time + balance_interval;
   }
 
   void
@@ -134,35 +123,6 @@ namespace graupel
       return;
     adapt_mesh();
     next_adaption = time + parameters.adaption.interval;
-  }
-
-  void
-  PackedBed::fill()
-  {
-    Filling filling(parameters.filling, dem);
-    progress.start_phase("fill", 0., 1.);
-    while (filling.step())
-      {
-        time = filling.time();
-        balance_if_due();
-        progress.update(filling.progress());
-      }
-    progress.finish_phase();
-    time = filling.time();
-  }
-
-  void
-  PackedBed::settle()
-  {
-    Settling settling(parameters.settling, dem);
-    progress.start_phase("settle", 0., parameters.settling.maximum_time);
-    while (settling.step())
-      {
-        balance_if_due();
-        progress.update(settling.time());
-      }
-    progress.finish_phase();
-    time += settling.time();
   }
 
   void

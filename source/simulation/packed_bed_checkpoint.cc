@@ -121,7 +121,6 @@ namespace graupel
   {
     const std::string file = parameters.filling.start_from + "/bed.bin";
     dem.restore(read_bed(file, identity_of_bed(parameters)));
-    dem.balance(share_of_empty_cell);
     progress.say("the settled bed is taken from " + file);
   }
 } // namespace graupel

@@ -63,7 +63,8 @@ namespace
       flow.set_superficial_velocity(velocity);
       for (unsigned int n = 0; n < 12; ++n)
         {
-          exchange.update(dem.store(), dem.particles());
+          exchange.update_bed(dem.store(), dem.particles());
+          exchange.update_drag(dem.particles());
           flow.step(exchange.medium(), FlowSolver::steady);
           exchange.forces(dem.particles(), flow, fluid.density, 0.);
           EXPECT_LE(exchange.momentum_imbalance(), 1e-10);

@@ -261,7 +261,8 @@ namespace
     flow.set_superficial_velocity(0.3);
     for (unsigned int n = 0; n < 8; ++n)
       {
-        exchange.update(packing.dem.store(), packing.dem.particles());
+        exchange.update_bed(packing.dem.store(), packing.dem.particles());
+        exchange.update_drag(packing.dem.particles());
         flow.step(exchange.medium(), 1e-2);
         exchange.forces(packing.dem.particles(), flow, fluid.density, 9.81);
         EXPECT_LE(exchange.solid_volume_error(), 1e-12);

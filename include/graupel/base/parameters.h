@@ -5,6 +5,7 @@
 
 #include <iosfwd>
 #include <map>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -35,6 +36,14 @@ namespace graupel
   void require(const bool         condition,
                const std::string &parameter,
                const std::string &reason);
+
+  /**
+   * The number that @p text, the value of @p parameter, is; nothing where it is one of
+   * @p words. Throws InputError for any other text.
+   */
+  std::optional<double> number_or_word(const std::string              &parameter,
+                                       const std::string              &text,
+                                       const std::vector<std::string> &words);
 
   /**
    * Reads parameter files and --set overrides into a ParameterHandler whose

@@ -107,27 +107,25 @@ namespace graupel
              const NodalSpace              &nodes,
              CostSheet                     &costs);
 
+    /** Void fraction of the flow and of the drag law, from where the particles are
+     * (the store must be current). */
+    void update_bed(const ParticleStore &store, const ParticleArrays &particles);
+
     /**
-     * Void fraction and drag coefficients from where the particles are (the
-     * store must be current) and from the slip against the fluid of the last
-     * forces(). Throws std::runtime_error, naming the place, where the void
-     * fraction or the drag coefficient cannot be.
+     * Drag coefficients in the bed of the last update_bed(), from the slip of its
+     * particles against the fluid of the last forces(). Throws std::runtime_error,
+     * naming the place, where the void fraction or the drag coefficient cannot be.
      */
-    void update(const ParticleStore &store, const ParticleArrays &particles);
-
-    /** The void fraction alone, from where the particles are (the store must be
-     * current). */
-    void update_void_fraction(const ParticleStore  &store,
-                              const ParticleArrays &particles);
+    void update_drag(const ParticleArrays &particles);
 
     /**
-     * Takes the slip velocities of the next update() from @p flux [m/s] through
+     * Takes the slip velocities of the next update_drag() from @p flux [m/s] through
      * @p void_fraction instead of the last forces(): where a flow is continued on
      * another mesh or in another run.
      */
     void follow(const NodalVectorField &flux, const NodalVector &void_fraction);
 
-    /** What update() made. */
+    /** What the updates made. */
     const Medium &
     medium() const
     {
@@ -167,13 +165,12 @@ namespace graupel
 
   private:
     void deposit_void_fraction(const ParticleArrays &particles);
-    // Of the law at each own particle, from that of the flow.
-    std::vector<double> law_void_fractions(const std::vector<double> &alpha);
+    // Of the law at each own particle.
+    std::vector<double> law_void_fractions();
     // chi / S chi, at least 1, at each own particle: above 1 at the surface.
     std::vector<double> surface_factors(const std::vector<double> &alpha);
     // A power of the void fraction, smoothed, at each own particle.
     std::vector<double> smooth_power(const int exponent);
-    void                deposit_drag(const ParticleArrays &particles);
     void keep_ledger(const FlowSolver &flow, const NodalVectorField &pressure_gradient);
 
     const LawVoidFraction         law;
@@ -189,6 +186,9 @@ namespace graupel
     NodalVectorField     smooth_velocity; // S u [m/s]
     NodalVectorField     smooth_gradient; // S grad p [Pa/m]
     std::vector<double>  volume, beta;    // by row [m^3], [kg/s]
+    std::vector<double>  law_alpha;       // alpha' by row
+    std::vector<double>  of_slip;         // W S alpha^-1 by row
+    std::vector<double>  of_drag;         // W S alpha^-2, in model B alpha^-1, by row
     dealii::Tensor<1, 3> fluid_force;
     double               momentum_error = 0., volume_error = 0.;
   };

@@ -87,6 +87,8 @@ namespace graupel
 
   private:
     void build();
+    // step() through the bed as it was last looked at.
+    FlowSolver::Report flow_past_bed(const double step);
     // Flux and pressure (4 fields) on the nodes as they are now.
     void take_over(std::array<NodalVector, 4> &fields, const double time);
 

@@ -41,16 +41,10 @@ namespace graupel
     }
 
   private:
-    // What a cell counts while there is no fluid, in particles.
-    static constexpr double share_of_empty_cell = 0.02;
-
     // Of this rank; on the first one with that of the run that this one resumes [s].
     double cpu_seconds() const;
 
-    void balance_if_due();
     void start_fluid();
-    void fill();
-    void settle();
     void take_bed();
     void present_bed();
     void flow();
@@ -97,7 +91,6 @@ namespace graupel
 
     double                  time = 0.; // simulated, since the run began [s]
     double                  next_output;
-    double                  next_balance  = 0.;
     double                  next_adaption = 0.;
     double                  cell_share    = 0.; // cost of a cell, in particles
     double                  step_limit;         // after a step that failed [s]
