@@ -12,7 +12,7 @@ from .runs import (
     fixed_cases,
     onset,
     over,
-    plateau,
+    Plateau,
     rise,
     supported_drop,
 )
@@ -189,8 +189,7 @@ def onset_table(runs):
     ):
         run = runs[name]
         ergun, here = ergun_onset(run), onset(run)
-        level = plateau(run)
-        last = run.cases[-1]
+        lifted = Plateau(run)
         rows.append(
             [
                 label,
@@ -199,8 +198,10 @@ def onset_table(runs):
                 f"{here:.4f}",
                 percent(here / ergun - 1.0),
                 f"{supported_drop(run):.1f}",
-                percent(None if level is None else level - 1.0),
-                f"{last['bottom_force'] / last['weight'] * PERCENT:.1f} %",
+                percent(lifted.level - 1.0 if lifted else None),
+                percent(lifted.on_bottom if lifted else None),
+                percent(lifted.on_wall if lifted else None),
+                f"{sum(lifted.seconds):.1f} s in {len(lifted.seconds)}",
                 f"{max(rise(run, c) for c in run.cases) * MILLI:.1f}",
             ]
         )
@@ -213,7 +214,9 @@ def onset_table(runs):
             "difference",
             "weight / area [Pa]",
             "plateau over that",
-            "bottom force / weight, last case",
+            "weight on the bottom",
+            "on the wall",
+            "mean over, cases",
             "largest rise [mm]",
         ],
         rows,
@@ -378,9 +381,9 @@ def page(runs, folder, figures, plain, corrected, runs_by_scale):
         "\nOnset is where the line of the fixed bed, a V + b V² through the cases in which the"
         " fluid carries less than 86 % of the weight, meets the weight less buoyancy over the"
         " cross-section, as it is measured in the laboratory. Ergun's onset is for the bed at"
-        " rest. The plateau is the mean in time over the cases in which the fluid carries the bed:"
-        " it goes up and down as a slug, and drops a little less than its weight as the wall"
-        " carries some of it.\n",
+        " rest. A lifted bed rises and falls as slugs, so that the plateau is the mean over the"
+        " second half of the cases in which the fluid carries the bed, and what then rests on the"
+        " bottom and hangs on the wall is the rest of its weight.\n",
         "## Cost\n",
         cost_table(runs),
         "\n## Any scale\n",

@@ -14,8 +14,6 @@ from report_parts.run_output import read_run
 FIXED = 0.86
 # The fluid carries the bed: the bottom has less than this part of its weight in the mean.
 LEFT_ON_BOTTOM = 0.05
-# Time in a case after which a lifted bed goes up and down [s].
-SLUG_BEGINS = 0.15
 GRAVITY = 9.81
 
 
@@ -117,30 +115,43 @@ def ergun_onset(run):
 
 
 def later_rows(run, case):
-    """Which rows of the monitors belong to a case without its beginning; the last one does."""
+    """Which rows of the monitors belong to the second half of a case; the last one does."""
     rows = (run.monitors["case"] == case["number"]) & (run.monitors["phase"] == "flow")
     time = run.monitors["time"]
-    return rows & ((time > time[rows][0] + SLUG_BEGINS) | (time == time[rows][-1]))
+    return rows & (time >= 0.5 * (time[rows][0] + time[rows][-1]))
 
 
 def rise(run, case):
-    """How much higher the bed is than at rest, median over the case without its beginning [m]:
+    """How much higher the bed is than at rest, median over the second half of the case [m]:
     at a single moment a slugging bed may have come apart."""
     height = run.monitors["bed_height"][later_rows(run, case)]
     return float(np.median(height)) - run.number("bed", "height")
 
 
-def plateau(run):
-    """Pressure drop in time and case mean over the cases in which the fluid carries the bed,
-    over the drop that does so [-]; None without such a case.
+class Plateau:
+    """The cases of a run in which the fluid carries the bed: means in time, and over them.
 
-    A lifted bed in a narrow vessel rises and falls as a slug, so the mean takes the whole case
-    but its beginning, and not its last quarter alone."""
-    drops = []
-    for case in run.cases:
-        rows = later_rows(run, case)
-        if np.count_nonzero(rows) < 2:
-            continue  # a resting bed has one row
-        if np.mean(run.monitors["bottom_force"][rows]) < LEFT_ON_BOTTOM * case["weight"]:
-            drops.append(np.mean(run.monitors["pressure_drop"][rows]))
-    return float(np.mean(drops)) / supported_drop(run) if drops else None
+    A lifted bed in a narrow vessel rises and falls as slugs, so that the means take half of
+    a case. What bottom and wall bear of the bed, the pressure drop does not.
+    """
+
+    def __init__(self, run):
+        self.drop, self.seconds, on_bottom, on_wall = [], [], [], []
+        for case in run.cases:
+            rows = later_rows(run, case)
+            if np.count_nonzero(rows) < 2:
+                continue  # a resting bed has one row
+            bottom = np.mean(run.monitors["bottom_force"][rows]) / case["weight"]
+            if bottom < LEFT_ON_BOTTOM:
+                self.drop.append(np.mean(run.monitors["pressure_drop"][rows]))
+                self.seconds.append(np.ptp(run.monitors["time"][rows]))
+                on_bottom.append(bottom)
+                on_wall.append(np.mean(run.monitors["wall_force"][rows]) / case["weight"])
+        if not self.drop:
+            return
+        # Over the drop that carries the bed [-]; parts of the weight [-].
+        self.level = float(np.mean(self.drop)) / supported_drop(run)
+        self.on_bottom, self.on_wall = float(np.mean(on_bottom)), float(np.mean(on_wall))
+
+    def __bool__(self):
+        return bool(self.drop)

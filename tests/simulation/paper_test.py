@@ -49,11 +49,19 @@ def a_run(velocities, buoyancy=0.0):
             }
         )
         bottom = WEIGHT - fluid
-        rows += [(number, 0.01 * step + number, drop, bottom) for step in range(40)]
+        # A lifted bed drops more, and hangs on the wall, in the first half only.
+        swing = 0.02 * WEIGHT if bottom < 1e-12 else 0.0
+        for step in range(40):
+            extra = swing if step < 20 else 0.0
+            rows.append(
+                (number, 0.01 * step + number, drop + extra / AREA, bottom, 0.01 * WEIGHT - extra)
+            )
     columns = list(zip(*rows))
     run.monitors = {
         name: np.array(values, dtype=float)
-        for name, values in zip(("case", "time", "pressure_drop", "bottom_force"), columns)
+        for name, values in zip(
+            ("case", "time", "pressure_drop", "bottom_force", "wall_force"), columns
+        )
     }
     run.monitors["phase"] = np.full(len(rows), "flow")
     return run
@@ -68,8 +76,12 @@ class Onset(unittest.TestCase):
             self.assertAlmostEqual(fixed_bed(runs.onset(run)), (WEIGHT - buoyancy) / AREA, places=6)
 
     def test_plateau(self):
-        self.assertAlmostEqual(runs.plateau(a_run((0.2, 0.9, 1.0))), 1.0, places=12)
-        self.assertIsNone(runs.plateau(a_run((0.2, 0.3))))
+        lifted = runs.Plateau(a_run((0.2, 0.9, 1.0)))
+        self.assertAlmostEqual(lifted.level, 1.0, places=12)
+        self.assertAlmostEqual(lifted.on_bottom, 0.0, places=12)
+        self.assertAlmostEqual(lifted.on_wall, 0.01, places=12)
+        self.assertEqual(len(lifted.drop), 2)
+        self.assertFalse(runs.Plateau(a_run((0.2, 0.3))))
 
 
 class Particles(unittest.TestCase):
