@@ -278,6 +278,8 @@ TEST(DragLaws, TableIsSound)
 TEST(PolydisperseDrag, SumsToThatOfTheSauterMean)
 {
   EXPECT_DOUBLE_EQ(polydisperse_drag_factor(0.4, 1.), 1.);
+  // F_i = (alpha y + (1 - alpha) y^2) F (van der Hoef et al. 2005), times y of the diameter.
+  EXPECT_DOUBLE_EQ(polydisperse_drag_factor(0.4, 2.), 2. * (0.4 * 2. + 0.6 * 4.));
   const std::vector<double> number{100., 30., 7.}, diameter{1., 1.5, 2.5};
   double                    squares = 0., cubes = 0.;
   for (unsigned int i = 0; i < 3; ++i)
