@@ -12,7 +12,7 @@ from .runs import (
     fixed_cases,
     onset,
     over,
-    Plateau,
+    plateau,
     rise,
     supported_drop,
 )
@@ -189,7 +189,7 @@ def onset_table(runs):
     ):
         run = runs[name]
         ergun, here = ergun_onset(run), onset(run)
-        lifted = Plateau(run)
+        lifted = plateau(run)
         rows.append(
             [
                 label,
@@ -201,7 +201,7 @@ def onset_table(runs):
                 percent(lifted.level - 1.0 if lifted else None),
                 percent(lifted.on_bottom if lifted else None),
                 percent(lifted.on_wall if lifted else None),
-                f"{sum(lifted.seconds):.1f} s in {len(lifted.seconds)}",
+                f"{lifted.seconds:.1f}" if lifted else "",
                 f"{max(rise(run, c) for c in run.cases) * MILLI:.1f}",
             ]
         )
@@ -216,7 +216,7 @@ def onset_table(runs):
             "plateau over that",
             "weight on the bottom",
             "on the wall",
-            "mean over, cases",
+            "mean over [s]",
             "largest rise [mm]",
         ],
         rows,
@@ -382,8 +382,8 @@ def page(runs, folder, figures, plain, corrected, runs_by_scale):
         " fluid carries less than 86 % of the weight, meets the weight less buoyancy over the"
         " cross-section, as it is measured in the laboratory. Ergun's onset is for the bed at"
         " rest. A lifted bed rises and falls as slugs, so that the plateau is the mean over the"
-        " second half of the cases in which the fluid carries the bed, and what then rests on the"
-        " bottom and hangs on the wall is the rest of its weight.\n",
+        " second half of the fastest case; what then rests on the bottom and hangs on the wall is"
+        " the rest of the bed's weight.\n",
         "## Cost\n",
         cost_table(runs),
         "\n## Any scale\n",

@@ -2,6 +2,7 @@
 
 import csv
 import math
+from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
@@ -128,30 +129,28 @@ def rise(run, case):
     return float(np.median(height)) - run.number("bed", "height")
 
 
+@dataclass
 class Plateau:
-    """The cases of a run in which the fluid carries the bed: means in time, and over them.
+    """A lifted bed, means over the second half of its case, as it rises and falls as slugs.
+    What bottom and wall bear of it, the pressure drop does not."""
 
-    A lifted bed in a narrow vessel rises and falls as slugs, so that the means take half of
-    a case. What bottom and wall bear of the bed, the pressure drop does not.
-    """
+    level: float  # pressure drop over the one that carries the bed [-]
+    on_bottom: float  # part of the weight [-]
+    on_wall: float  # part of the weight [-]
+    seconds: float  # simulated time of the means [s]
 
-    def __init__(self, run):
-        self.drop, self.seconds, on_bottom, on_wall = [], [], [], []
-        for case in run.cases:
-            rows = later_rows(run, case)
-            if np.count_nonzero(rows) < 2:
-                continue  # a resting bed has one row
-            bottom = np.mean(run.monitors["bottom_force"][rows]) / case["weight"]
-            if bottom < LEFT_ON_BOTTOM:
-                self.drop.append(np.mean(run.monitors["pressure_drop"][rows]))
-                self.seconds.append(np.ptp(run.monitors["time"][rows]))
-                on_bottom.append(bottom)
-                on_wall.append(np.mean(run.monitors["wall_force"][rows]) / case["weight"])
-        if not self.drop:
-            return
-        # Over the drop that carries the bed [-]; parts of the weight [-].
-        self.level = float(np.mean(self.drop)) / supported_drop(run)
-        self.on_bottom, self.on_wall = float(np.mean(on_bottom)), float(np.mean(on_wall))
 
-    def __bool__(self):
-        return bool(self.drop)
+def plateau(run):
+    """The fastest case, if the fluid carries the bed in it; None otherwise. Slower cases just
+    above onset may leave a layer on the bottom."""
+    case = run.cases[-1]
+    rows = later_rows(run, case)
+
+    def part(name):
+        return float(np.mean(run.monitors[name][rows])) / case["weight"]
+
+    if np.count_nonzero(rows) < 2 or part("bottom_force") > LEFT_ON_BOTTOM:
+        return None  # a resting bed has one row
+    level = float(np.mean(run.monitors["pressure_drop"][rows])) / supported_drop(run)
+    seconds = float(np.ptp(run.monitors["time"][rows]))
+    return Plateau(level, part("bottom_force"), part("wall_force"), seconds)

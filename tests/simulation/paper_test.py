@@ -76,12 +76,12 @@ class Onset(unittest.TestCase):
             self.assertAlmostEqual(fixed_bed(runs.onset(run)), (WEIGHT - buoyancy) / AREA, places=6)
 
     def test_plateau(self):
-        lifted = runs.Plateau(a_run((0.2, 0.9, 1.0)))
+        lifted = runs.plateau(a_run((0.2, 0.9, 1.0)))
         self.assertAlmostEqual(lifted.level, 1.0, places=12)
         self.assertAlmostEqual(lifted.on_bottom, 0.0, places=12)
         self.assertAlmostEqual(lifted.on_wall, 0.01, places=12)
-        self.assertEqual(len(lifted.drop), 2)
-        self.assertFalse(runs.Plateau(a_run((0.2, 0.3))))
+        self.assertAlmostEqual(lifted.seconds, 0.19, places=12)
+        self.assertIsNone(runs.plateau(a_run((0.2, 0.3))))
 
 
 class Particles(unittest.TestCase):
