@@ -178,6 +178,14 @@ def line_by_line(runs):
     return table(["the paper", "here", "agrees", "why"], rows)
 
 
+def plateau_cells(lifted):
+    """The columns of a lifted bed, dashes without one."""
+    if lifted is None:
+        return ["-"] * 4
+    parts = (lifted.level - 1.0, lifted.on_bottom, lifted.on_wall)
+    return [*map(percent, parts), f"{lifted.seconds:.1f}"]
+
+
 def onset_table(runs):
     """Onset and plateau of all sweeps that reach it."""
     rows = []
@@ -189,7 +197,6 @@ def onset_table(runs):
     ):
         run = runs[name]
         ergun, here = ergun_onset(run), onset(run)
-        lifted = plateau(run)
         rows.append(
             [
                 label,
@@ -198,10 +205,7 @@ def onset_table(runs):
                 f"{here:.4f}",
                 percent(here / ergun - 1.0),
                 f"{supported_drop(run):.1f}",
-                percent(lifted.level - 1.0 if lifted else None),
-                percent(lifted.on_bottom if lifted else None),
-                percent(lifted.on_wall if lifted else None),
-                f"{lifted.seconds:.1f}" if lifted else "",
+                *plateau_cells(plateau(run)),
                 f"{max(rise(run, c) for c in run.cases) * MILLI:.1f}",
             ]
         )
