@@ -2,7 +2,7 @@
 // forces and contacts that show what was computed.
 
 #include <graupel/dem/dem.h>
-#include <graupel/dem/dem_error.h>
+#include <graupel/dem/particles/dem_error.h>
 
 #include <CLI/CLI.hpp>
 #include <boost/iostreams/filter/gzip.hpp>

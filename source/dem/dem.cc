@@ -1,6 +1,6 @@
 #include <graupel/dem/dem.h>
-#include <graupel/dem/dem_error.h>
-#include <graupel/dem/exact_sum.h>
+#include <graupel/dem/numbers/exact_sum.h>
+#include <graupel/dem/particles/dem_error.h>
 
 #include <limits>
 #include <numeric>

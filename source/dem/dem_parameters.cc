@@ -1,6 +1,6 @@
 #include <graupel/base/parameters.h>
 #include <graupel/dem/dem_parameters.h>
-#include <graupel/dem/particle_arrays.h>
+#include <graupel/dem/particles/particle_arrays.h>
 
 #include <deal.II/base/utilities.h>
 

@@ -1,5 +1,5 @@
 #include <graupel/dem/dem.h>
-#include <graupel/dem/dem_error.h>
+#include <graupel/dem/particles/dem_error.h>
 
 #include <boost/serialization/array.hpp>
 #include <boost/serialization/vector.hpp>

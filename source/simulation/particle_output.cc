@@ -1,4 +1,4 @@
-#include <graupel/dem/bed_profiles.h>
+#include <graupel/dem/bed/bed_profiles.h>
 #include <graupel/simulation/particle_output.h>
 
 namespace graupel

@@ -2,10 +2,10 @@
 
 #include <graupel/base/parameter_entries.h>
 #include <graupel/base/parameters.h>
-#include <graupel/dem/bed_observables.h>
-#include <graupel/dem/dem_error.h>
-#include <graupel/dem/filling.h>
-#include <graupel/dem/settling.h>
+#include <graupel/dem/bed/bed_observables.h>
+#include <graupel/dem/packing/filling.h>
+#include <graupel/dem/packing/settling.h>
+#include <graupel/dem/particles/dem_error.h>
 
 namespace
 {

@@ -1,10 +1,10 @@
 #include "small_column.h"
 
-#include <graupel/dem/bed_observables.h>
-#include <graupel/dem/bed_profiles.h>
-#include <graupel/dem/filling.h>
-#include <graupel/dem/settling.h>
-#include <graupel/dem/sphere_cuts.h>
+#include <graupel/dem/bed/bed_observables.h>
+#include <graupel/dem/bed/bed_profiles.h>
+#include <graupel/dem/bed/sphere_cuts.h>
+#include <graupel/dem/packing/filling.h>
+#include <graupel/dem/packing/settling.h>
 
 #include <random>
 

@@ -1,4 +1,4 @@
-#include <graupel/dem/contact_laws.h>
+#include <graupel/dem/laws/contact_laws.h>
 
 #include <gtest/gtest.h>
 

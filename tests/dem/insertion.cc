@@ -1,10 +1,10 @@
 #include "small_column.h"
 
 #include <graupel/base/parameters.h>
-#include <graupel/dem/bed_observables.h>
-#include <graupel/dem/dem_error.h>
-#include <graupel/dem/filling.h>
-#include <graupel/dem/particle_list.h>
+#include <graupel/dem/bed/bed_observables.h>
+#include <graupel/dem/packing/filling.h>
+#include <graupel/dem/particles/dem_error.h>
+#include <graupel/dem/particles/particle_list.h>
 
 #include <fstream>
 

@@ -1,6 +1,6 @@
 #include "small_column.h"
 
-#include <graupel/dem/dem_error.h>
+#include <graupel/dem/particles/dem_error.h>
 
 namespace
 {

@@ -1,6 +1,6 @@
 #include "small_column.h"
 
-#include <graupel/dem/filling.h>
+#include <graupel/dem/packing/filling.h>
 
 namespace
 {

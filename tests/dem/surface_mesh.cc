@@ -1,5 +1,5 @@
 #include <graupel/base/parameters.h>
-#include <graupel/dem/surface_mesh.h>
+#include <graupel/dem/walls/surface_mesh.h>
 
 #include <gtest/gtest.h>
 #include <unistd.h>

@@ -1,4 +1,4 @@
-#include <graupel/dem/verlet_list.h>
+#include <graupel/dem/contacts/verlet_list.h>
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 #include "small_column.h"
 
 #include <graupel/base/parameters.h>
-#include <graupel/dem/dem_error.h>
+#include <graupel/dem/particles/dem_error.h>
 
 #include <fstream>
 

@@ -1,5 +1,5 @@
-#include <graupel/dem/contact_list.h>
-#include <graupel/dem/walls.h>
+#include <graupel/dem/contacts/contact_list.h>
+#include <graupel/dem/walls/walls.h>
 
 #include <gtest/gtest.h>
 

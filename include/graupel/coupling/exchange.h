@@ -5,7 +5,7 @@
 #include <graupel/closures/scaling.h>
 #include <graupel/coupling/filter.h>
 #include <graupel/coupling/particle_transfer.h>
-#include <graupel/dem/particle_arrays.h>
+#include <graupel/dem/particles/particle_arrays.h>
 #include <graupel/fluid/flow_solver.h>
 
 namespace graupel

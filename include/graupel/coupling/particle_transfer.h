@@ -1,7 +1,7 @@
 #ifndef graupel_coupling_particle_transfer_h
 #define graupel_coupling_particle_transfer_h
 
-#include <graupel/dem/particle_store.h>
+#include <graupel/dem/particles/particle_store.h>
 #include <graupel/mesh/nodal_space.h>
 
 namespace graupel

@@ -2,12 +2,12 @@
 #define graupel_dem_dem_h
 
 #include <graupel/base/cost_sheet.h>
-#include <graupel/dem/contact_sweep.h>
+#include <graupel/dem/contacts/contact_sweep.h>
 #include <graupel/dem/dem_parameters.h>
 #include <graupel/dem/dem_state.h>
-#include <graupel/dem/halo.h>
 #include <graupel/dem/integration.h>
-#include <graupel/dem/particle_store.h>
+#include <graupel/dem/particles/halo.h>
+#include <graupel/dem/particles/particle_store.h>
 
 namespace graupel
 {

@@ -1,9 +1,9 @@
 #ifndef graupel_dem_dem_parameters_h
 #define graupel_dem_dem_parameters_h
 
-#include <graupel/dem/materials.h>
-#include <graupel/dem/particle_types.h>
-#include <graupel/dem/walls.h>
+#include <graupel/dem/laws/materials.h>
+#include <graupel/dem/particles/particle_types.h>
+#include <graupel/dem/walls/walls.h>
 #include <graupel/mesh/cylinder.h>
 
 #include <deal.II/base/parameter_handler.h>

@@ -1,8 +1,8 @@
 #ifndef graupel_dem_dem_state_h
 #define graupel_dem_dem_state_h
 
-#include <graupel/dem/loose_contact.h>
-#include <graupel/dem/parcel.h>
+#include <graupel/dem/particles/loose_contact.h>
+#include <graupel/dem/particles/parcel.h>
 
 #include <array>
 #include <vector>

@@ -1,7 +1,7 @@
 #ifndef graupel_dem_integration_h
 #define graupel_dem_integration_h
 
-#include <graupel/dem/contact_sweep.h>
+#include <graupel/dem/contacts/contact_sweep.h>
 
 namespace graupel
 {

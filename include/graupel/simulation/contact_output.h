@@ -1,7 +1,7 @@
 #ifndef graupel_simulation_contact_output_h
 #define graupel_simulation_contact_output_h
 
-#include <graupel/dem/contact_sweep.h>
+#include <graupel/dem/contacts/contact_sweep.h>
 
 #include <deal.II/base/data_out_base.h>
 

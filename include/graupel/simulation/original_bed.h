@@ -2,7 +2,7 @@
 #define graupel_simulation_original_bed_h
 
 #include <graupel/base/progress.h>
-#include <graupel/dem/bed_observables.h>
+#include <graupel/dem/bed/bed_observables.h>
 #include <graupel/simulation/run_parameters.h>
 
 namespace graupel

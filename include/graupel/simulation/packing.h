@@ -2,8 +2,8 @@
 #define graupel_simulation_packing_h
 
 #include <graupel/base/progress.h>
-#include <graupel/dem/filling.h>
-#include <graupel/dem/settling.h>
+#include <graupel/dem/packing/filling.h>
+#include <graupel/dem/packing/settling.h>
 
 #include <string>
 

@@ -1,7 +1,7 @@
 #ifndef graupel_simulation_result_files_h
 #define graupel_simulation_result_files_h
 
-#include <graupel/dem/bed_profiles.h>
+#include <graupel/dem/bed/bed_profiles.h>
 #include <graupel/fluid/flow_solver.h>
 #include <graupel/simulation/case_result.h>
 #include <graupel/simulation/profiles.h>

@@ -2,8 +2,8 @@
 #define graupel_simulation_run_parameters_h
 
 #include <graupel/coupling/exchange.h>
-#include <graupel/dem/filling.h>
-#include <graupel/dem/settling.h>
+#include <graupel/dem/packing/filling.h>
+#include <graupel/dem/packing/settling.h>
 #include <graupel/fluid/manufactured_solution.h>
 #include <graupel/mesh/adaption.h>
 #include <graupel/simulation/original_bed_parameters.h>

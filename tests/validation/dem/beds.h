@@ -3,9 +3,9 @@
 
 #include "../../dem/validation_vessel.h"
 
-#include <graupel/dem/bed_observables.h>
-#include <graupel/dem/filling.h>
-#include <graupel/dem/settling.h>
+#include <graupel/dem/bed/bed_observables.h>
+#include <graupel/dem/packing/filling.h>
+#include <graupel/dem/packing/settling.h>
 
 namespace graupel
 {
@@ -54,8 +54,8 @@ namespace graupel
     }
 
     VesselMesh mesh;
-    CostSheet    costs;
-    Dem          dem;
+    CostSheet  costs;
+    Dem        dem;
   };
 } // namespace graupel
 

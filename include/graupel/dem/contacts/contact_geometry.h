@@ -1,0 +1,65 @@
+#ifndef graupel_dem_contacts_contact_geometry_h
+#define graupel_dem_contacts_contact_geometry_h
+
+#include <graupel/dem/laws/contact_laws.h>
+#include <graupel/dem/particles/particle_arrays.h>
+#include <graupel/dem/walls/walls.h>
+
+namespace graupel
+{
+  /** The part of a substep for which a contact that began in it has lasted [s]. */
+  template <class Real>
+  [[gnu::always_inline]] inline Real
+  step_in_contact(const Contact<Real> &contact, const double dt)
+  {
+    const Real approached = contact.drift * contact.normal * dt;
+    return select(
+      approached > contact.overlap, dt * contact.overlap / approached, Real(dt));
+  }
+
+  /** Contact of two particles of masses @p m_i and @p m_j [kg]; step and drift are 0. */
+  inline Contact<double>
+  contact_of_pair(const Body &i, const Body &j, const double m_i, const double m_j)
+  {
+    Contact<double> contact;
+    const auto      between  = triple(j.position) - triple(i.position);
+    const double    distance = between.norm();
+    contact.overlap          = i.radius + j.radius - distance;
+    contact.normal           = (1. / distance) * between;
+    contact.radius           = i.radius * j.radius / (i.radius + j.radius);
+    contact.mass             = m_i * m_j / (m_i + m_j);
+    const double a_i         = i.radius - 0.5 * contact.overlap;
+    const double a_j         = j.radius - 0.5 * contact.overlap;
+    contact.velocity         = triple(i.velocity) - triple(j.velocity) +
+                       cross(a_i * triple(i.spin) + a_j * triple(j.spin), contact.normal);
+    contact.step = 0.;
+    return contact;
+  }
+
+  /** Contact of a particle of this mass [kg] with a wall; step and drift are 0. */
+  inline Contact<double>
+  contact_of_wall(const Body                 &i,
+                  const double                mass,
+                  const WallGeometry<double> &geometry,
+                  const Triple<double>       &wall_velocity)
+  {
+    Contact<double> contact;
+    contact.overlap  = i.radius - geometry.distance;
+    contact.normal   = geometry.normal;
+    contact.radius   = i.radius;
+    contact.mass     = mass;
+    contact.velocity = triple(i.velocity) - wall_velocity +
+                       geometry.distance * cross(triple(i.spin), contact.normal);
+    contact.step = 0.;
+    return contact;
+  }
+
+  /** Whether a wall is made of triangles. */
+  inline bool
+  is_surface(const Wall &wall)
+  {
+    return std::holds_alternative<SurfaceWall>(wall.shape);
+  }
+} // namespace graupel
+
+#endif

@@ -1,0 +1,21 @@
+#ifndef graupel_dem_particles_particle_list_h
+#define graupel_dem_particles_particle_list_h
+
+#include <graupel/dem/particles/particle_arrays.h>
+
+#include <string>
+#include <vector>
+
+namespace graupel
+{
+  /**
+   * Reads particles from a CSV file. The first line names the columns, in any
+   * order: x, y, z, diameter (of the simulated particle) [m], and if wanted vx, vy,
+   * vz [m/s], wx, wy, wz [rad/s], type (1 to @p n_types). Empty lines and what
+   * follows a # are left out. Throws InputError, with the number of the line.
+   */
+  std::vector<NewParticle> read_particle_list(const std::string &file,
+                                              const unsigned int n_types);
+} // namespace graupel
+
+#endif

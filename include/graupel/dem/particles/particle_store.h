@@ -1,0 +1,173 @@
+#ifndef graupel_dem_particles_particle_store_h
+#define graupel_dem_particles_particle_store_h
+
+#include <graupel/dem/particles/loose_contact.h>
+#include <graupel/dem/particles/particle_arrays.h>
+#include <graupel/mesh/vessel_mesh.h>
+
+#include <deal.II/grid/grid_tools_cache.h>
+#include <deal.II/particles/particle_handler.h>
+
+#include <functional>
+#include <vector>
+
+namespace graupel
+{
+  /**
+   * Which cell and which rank each particle is in, as of the last migration. The
+   * only class of the program that names deal.II's ParticleHandler.
+   *
+   * The arrays are the truth. The handler knows a particle's id and place, and as
+   * a label the rank and row that has the rest of it. A migration moves the
+   * handler's particles; then each rank fetches from the ranks named by the labels
+   * what it does not have: type, body, forces and the springs of the contacts. So
+   * whatever moves particles between ranks (migration, refinement, a new
+   * partition) takes everything along.
+   */
+  class ParticleStore
+  {
+  public:
+    using CellIterator = dealii::Triangulation<3>::active_cell_iterator;
+    using CellVisitor =
+      std::function<void(const CellIterator                  &cell,
+                         const unsigned int                   first_row,
+                         const std::vector<dealii::Point<3>> &reference_locations)>;
+
+    /** @p mesh must outlive the store. */
+    explicit ParticleStore(VesselMesh &mesh);
+
+    /**
+     * Adds particles, without an id with the next free one, behind the own rows of
+     * @p particles, which must hold no ghosts. The same call on every rank,
+     * collective; each goes to the lowest rank that owns a cell around its center.
+     * Mass is left to the caller. Throws DemError for a point outside the mesh.
+     */
+    void insert(const std::vector<NewParticle> &added, ParticleArrays &particles);
+
+    /** Forgets all particles, on a mesh that may have changed. Collective. */
+    void clear();
+
+    /** The contacts of some own rows, given to a migration to go with them. */
+    using ContactsOf =
+      std::function<std::vector<LooseContact>(const std::vector<std::uint32_t> &rows)>;
+
+    /** What a migration did to the rows. */
+    struct Moves
+    {
+      /** For each old own row its new one, or no_row if it is not here any more. */
+      std::vector<std::uint32_t> new_row;
+      /** Contacts of the particles that came from other ranks. */
+      std::vector<LooseContact> arrived;
+    };
+    static constexpr std::uint32_t no_row = -1;
+
+    /**
+     * Finds the cell and rank of every particle and moves it there; removes first
+     * those that are listed in @p departed, own rows. Afterwards the arrays hold
+     * own rows only, those of one cell contiguous. Collective. Throws DemError,
+     * with number, last place and reason, for a lost particle. What deal.II gives
+     * up (a particle exactly on a face; a long way within one migration) is
+     * searched for in all cells of all ranks.
+     */
+    Moves migrate(ParticleArrays                   &particles,
+                  const ContactsOf                 &contacts_of,
+                  const std::vector<std::uint32_t> &departed);
+
+    /**
+     * Divides the mesh among the ranks anew, so that the sum of @p cell_weight +
+     * @p particle_weight * particles is even, and moves the particles along. They
+     * must have migrated just before. Collective.
+     */
+    Moves repartition(ParticleArrays    &particles,
+                      const ContactsOf  &contacts_of,
+                      const unsigned int cell_weight,
+                      const unsigned int particle_weight);
+
+    /**
+     * Refines and coarsens the mesh as marked, with the same weights, and finds the
+     * particles in it anew: deal.II, which hands them from parent to child by itself,
+     * may lose one on a face between two of them. Collective.
+     */
+    Moves adapt(ParticleArrays    &particles,
+                const ContactsOf  &contacts_of,
+                const unsigned int cell_weight,
+                const unsigned int particle_weight);
+
+    /**
+     * Calls @p visit for each locally owned cell that holds particles, with the
+     * first of its rows and the places of its particles in the unit cell, as of
+     * the last migrate().
+     */
+    void visit_cells(const CellVisitor &visit) const;
+
+    /** Particles on all ranks. */
+    unsigned int
+    n_global() const
+    {
+      return n_expected;
+    }
+
+    MPI_Comm
+    communicator() const
+    {
+      return mesh.communicator();
+    }
+
+  private:
+    struct Location
+    {
+      CellIterator     cell;
+      dealii::Point<3> reference;
+      bool             found = false;
+    };
+
+    // A particle on its way into a cell, with its label.
+    struct Traveller
+    {
+      unsigned int        id;
+      dealii::Point<3>    position;
+      std::vector<double> label;
+
+      template <class Archive>
+      void
+      serialize(Archive &archive, const unsigned int)
+      {
+        archive &id &position &label;
+      }
+    };
+
+    // Looks in own cells within reach of the point.
+    Location locate(const dealii::Point<3> &point, const double reach) const;
+    // Puts each traveller, the same on all ranks, into a cell of the lowest rank
+    // that has one for it; gives that rank, or the number of ranks for nowhere.
+    // Collective.
+    std::vector<unsigned int> place(const std::vector<Traveller> &travellers);
+
+    void  set_places(const ParticleArrays             &particles,
+                     const std::vector<std::uint32_t> &departed);
+    Moves collect(ParticleArrays &particles, const ContactsOf &contacts_of);
+    void  bring_home_strays();
+    void  check_count();
+
+    struct CellRows
+    {
+      CellIterator                  cell;
+      unsigned int                  first_row;
+      std::vector<dealii::Point<3>> reference_locations;
+    };
+
+    VesselMesh                           &mesh;
+    dealii::GridTools::Cache<3>           cache;
+    dealii::Particles::ParticleHandler<3> handler;
+    std::vector<CellRows>                 cells;
+
+    // What all ranks together must hold, and the next id to give away.
+    unsigned int n_expected = 0;
+    unsigned int next_id    = 0;
+
+    // What deal.II gave up in the present migration.
+    std::vector<Traveller> strays;
+  };
+} // namespace graupel
+
+#endif

@@ -1,0 +1,230 @@
+#include <graupel/base/parameters.h>
+#include <graupel/dem/particles/particle_arrays.h>
+#include <graupel/dem/particles/particle_types.h>
+
+#include <deal.II/base/utilities.h>
+
+#include <boost/math/distributions/normal.hpp>
+
+namespace graupel
+{
+  namespace
+  {
+    // Where no ends are given, the tails are cut here, in deviations.
+    constexpr double usual_tail = 3.;
+    // Diameters at which a mean over a distribution is taken.
+    constexpr unsigned int n_samples = 2000;
+  } // namespace
+
+  void
+  SizeDistribution::declare(dealii::ParameterHandler &prm)
+  {
+    prm.add_parameter(
+      "size distribution",
+      kind,
+      "Distribution of the original diameters: single (the diameter), list, uniform, "
+      "normal (the diameter is the mean) or log-normal (it is the median).",
+      dealii::Patterns::Selection("single|list|uniform|normal|log-normal"));
+    prm.add_parameter("size measure",
+                      measure,
+                      "Whether shares of sizes are of the mass or of the number of "
+                      "particles.",
+                      dealii::Patterns::Selection("mass|number"));
+    prm.add_parameter("size list",
+                      list,
+                      "Diameters [m] and their shares [-] of a list, as in "
+                      "\"1e-3: 0.4, 2e-3: 0.6\".");
+    prm.add_parameter("size deviation",
+                      deviation,
+                      "Standard deviation of the diameter if normal [m], of its "
+                      "natural logarithm if log-normal [-].");
+    prm.add_parameter("smallest diameter",
+                      smallest,
+                      "Smallest diameter of a distribution; 0: three deviations below "
+                      "the middle [m].");
+    prm.add_parameter("largest diameter",
+                      largest,
+                      "Largest diameter of a distribution; 0: three deviations above "
+                      "the middle [m].");
+  }
+
+  void
+  SizeDistribution::check(const double diameter, const std::string &section) const
+  {
+    if (kind == "single")
+      return;
+    if (kind == "list")
+      {
+        require(!shares().empty(),
+                section + "/size list",
+                "write diameters and shares, \"1e-3: 0.4, 2e-3: 0.6\"");
+        for (const auto &share : shares())
+          require(share.diameter > 0. && share.share >= 0.,
+                  section + "/size list",
+                  "diameters are positive, in metres, and shares not negative");
+        return;
+      }
+    require(kind == "uniform" || deviation > 0.,
+            section + "/size deviation",
+            "a normal distribution needs a positive deviation");
+    require(kind != "uniform" || (smallest > 0. && largest > 0.),
+            section + "/smallest diameter",
+            "a uniform distribution needs a smallest and a largest diameter");
+    require(smallest_diameter(diameter) > 0.,
+            section + "/smallest diameter",
+            "the distribution reaches down to nothing: give a smallest diameter");
+    require(smallest_diameter(diameter) <= largest_diameter(diameter),
+            section + "/largest diameter",
+            "the largest diameter lies below the smallest");
+  }
+
+  std::vector<SizeDistribution::Share>
+  SizeDistribution::shares() const
+  {
+    std::vector<Share> result;
+    double             total = 0.;
+    for (const auto &entry : dealii::Utilities::split_string_list(list))
+      {
+        const auto numbers = dealii::Utilities::split_string_list(entry, ':');
+        if (numbers.size() != 2)
+          return {};
+        result.push_back({dealii::Utilities::string_to_double(numbers[0]),
+                          dealii::Utilities::string_to_double(numbers[1])});
+        total += result.back().share;
+      }
+    for (auto &share : result)
+      share.share /= total;
+    std::sort(result.begin(), result.end(), [](const Share &a, const Share &b) {
+      return a.diameter < b.diameter;
+    });
+    return result;
+  }
+
+  double
+  SizeDistribution::smallest_diameter(const double diameter) const
+  {
+    if (kind == "single")
+      return diameter;
+    if (kind == "list")
+      return shares().front().diameter;
+    if (smallest > 0.)
+      return smallest;
+    return kind == "normal" ? diameter - usual_tail * deviation
+                            : diameter * std::exp(-usual_tail * deviation);
+  }
+
+  double
+  SizeDistribution::largest_diameter(const double diameter) const
+  {
+    if (kind == "single")
+      return diameter;
+    if (kind == "list")
+      return shares().back().diameter;
+    if (largest > 0.)
+      return largest;
+    return kind == "normal" ? diameter + usual_tail * deviation
+                            : diameter * std::exp(usual_tail * deviation);
+  }
+
+  double
+  SizeDistribution::quantile(const double share, const double diameter) const
+  {
+    if (kind == "single")
+      return diameter;
+    if (kind == "list")
+      {
+        const auto sorted = shares();
+        double     left   = share;
+        for (const auto &entry : sorted)
+          if ((left -= entry.share) < 0.)
+            return entry.diameter;
+        return sorted.back().diameter;
+      }
+    const double low = smallest_diameter(diameter), high = largest_diameter(diameter);
+    if (kind == "uniform")
+      return low + share * (high - low);
+
+    // The part of the bell between the ends, in d or in ln d.
+    const bool in_logarithm = kind == "log-normal";
+    const auto x = [&](const double d) { return in_logarithm ? std::log(d) : d; };
+    const boost::math::normal bell(x(diameter), deviation);
+    const double              below = boost::math::cdf(bell, x(low));
+    const double              above = boost::math::cdf(bell, x(high));
+    const double p  = std::clamp(below + share * (above - below), 1e-300, 1. - 1e-16);
+    const double at = boost::math::quantile(bell, p);
+    return std::clamp(in_logarithm ? std::exp(at) : at, low, high);
+  }
+
+  double
+  SizeDistribution::mean_volume(const double diameter) const
+  {
+    if (kind == "single")
+      return sphere_volume(diameter / 2.);
+    // A mean by number of V is, over a distribution by mass, one over that of 1/V.
+    double sum = 0.;
+    for (unsigned int k = 0; k < n_samples; ++k)
+      {
+        const double volume =
+          sphere_volume(0.5 * quantile((k + 0.5) / n_samples, diameter));
+        sum += measure == "mass" ? 1. / volume : volume;
+      }
+    return measure == "mass" ? n_samples / sum : sum / n_samples;
+  }
+
+  void
+  ParticleType::declare(dealii::ParameterHandler &prm)
+  {
+    prm.add_parameter("mass fraction",
+                      mass_fraction,
+                      "Share of this type in the mass that is filled in; 0: there is no "
+                      "such type [-].");
+    prm.add_parameter("diameter", diameter, "Diameter of its original particles [m].");
+    prm.add_parameter("scale",
+                      scale,
+                      "Diameter of its simulated particles over that of the original "
+                      "ones [-].");
+    prm.add_parameter("density", density, "Density of its solid [kg/m^3].");
+    prm.add_parameter("Young's modulus",
+                      elasticity.young_modulus,
+                      "Young's modulus of its solid, usually reduced [Pa].");
+    prm.add_parameter(
+      "Poisson's ratio", elasticity.poisson_ratio, "Poisson's ratio of its solid [-].");
+    sizes.declare(prm);
+  }
+
+  void
+  ParticleType::check(const std::string &section) const
+  {
+    require(mass_fraction >= 0. && mass_fraction < 1.,
+            section + "/mass fraction",
+            "a share lies between 0 and 1; what is left over is of the first type");
+    if (mass_fraction == 0.)
+      return;
+    require(diameter > 0., section + "/diameter", "a sphere needs a positive diameter");
+    require(scale >= 1., section + "/scale", "choose 1 or more");
+    require(density > 0., section + "/density", "a solid needs a positive density");
+    require(elasticity.young_modulus > 0.,
+            section + "/Young's modulus",
+            "a solid needs a positive modulus, in pascal");
+    require(elasticity.poisson_ratio >= 0. && elasticity.poisson_ratio <= 0.5,
+            section + "/Poisson's ratio",
+            "an isotropic solid has a ratio between 0 and 0.5");
+    sizes.check(diameter, section);
+  }
+
+  ParticleSource::ParticleSource(const std::vector<ParticleType> &types)
+    : types(types)
+  {
+    double numbers = 0.;
+    for (const auto &type : types)
+      {
+        number_fraction.push_back(type.mass_fraction / type.mean_mass());
+        numbers += number_fraction.back();
+      }
+    for (unsigned int t = 0; t < types.size(); ++t)
+      {
+        number_fraction[t] /= numbers;
+        mass += number_fraction[t] * types[t].mean_mass();
+      }
+  }
+} // namespace graupel
