@@ -1,6 +1,8 @@
 #include <graupel/base/parameters.h>
-#include <graupel/simulation/packed_bed.h>
+#include <graupel/simulation/files/input_files.h>
+#include <graupel/simulation/files/may_change.h>
 #include <graupel/simulation/report.h>
+#include <graupel/simulation/simulation.h>
 #include <graupel/simulation/study_runs.h>
 
 #include <CLI/CLI.hpp>
@@ -15,12 +17,13 @@ namespace
   {
     std::string              file, output;
     std::vector<std::string> overrides;
-    bool                     check = false, print_parameters = false, resume = false;
+    bool check = false, print_parameters = false, print_columns = false, resume = false;
   };
 
   enum class Outcome
   {
     finished,
+    failed, // a study, some of whose levels have failed
     told,   // --check and the like: nothing ran
     refused // bad input
   };
@@ -46,6 +49,10 @@ namespace
       options.print_parameters,
       "Print every parameter with its explanation and value (the default without "
       "FILE), and stop");
+    app.add_flag("--print-columns",
+                 options.print_columns,
+                 "Print the columns of monitors.csv and cases.csv and what a run that is "
+                 "gone on with may change, as in the documentation, and stop");
     app
       .add_option("--set", options.overrides, "Override a value: \"Section/name=value\"")
       ->take_all()
@@ -57,13 +64,27 @@ namespace
                "  graupel prm/packed-bed/ricklick-2x.prm");
   }
 
-  // A study, or one run.
   void
-  run_whole(const RunParameters &parameters,
-            const std::string   &file,
-            const bool           resume,
-            ResultFiles         &files,
-            Progress            &progress)
+  print_columns()
+  {
+    std::cout << "## monitors.csv\n\n"
+              << documentation(monitors()) << "\n## cases.csv\n\n"
+              << documentation(case_quantities()) << "\n## What may change\n\n"
+              << table_of_changes();
+  }
+
+  bool
+  is_study(const RunParameters &parameters)
+  {
+    return parameters.manufactured.is_given() || parameters.study.is_wanted();
+  }
+
+  // False if a level has failed.
+  bool
+  run_levels(const RunParameters            &parameters,
+             const std::string              &file,
+             const dealii::ParameterHandler &prm,
+             Progress                       &progress)
   {
     const RunLevel manufactured = [&](const RunParameters &level,
                                       const std::string   &directory) {
@@ -72,18 +93,44 @@ namespace
     const RunLevel packed_bed = [&](const RunParameters &level,
                                     const std::string   &directory) {
       ResultFiles own(directory, MPI_COMM_WORLD);
-      PackedBed   bed(level, file, own, progress, MPI_COMM_WORLD);
-      bed.run();
-      return packed_bed_level(level, bed.result());
+      Simulation  simulation(level, file, own, progress, MPI_COMM_WORLD);
+      own.begin(prm);
+      simulation.run();
+      return packed_bed_level(level, simulation.result());
     };
-    if (parameters.manufactured.is_given() || parameters.study.is_wanted())
-      run_study(parameters,
-                parameters.manufactured.is_given() ? manufactured : packed_bed,
-                parameters.output.directory,
-                progress,
-                MPI_COMM_WORLD);
+    return run_study(parameters,
+                     parameters.manufactured.is_given() ? manufactured : packed_bed,
+                     parameters.output.directory,
+                     progress,
+                     MPI_COMM_WORLD);
+  }
+
+  // Everything is read before anything is written.
+  Outcome
+  run_whole(const RunParameters            &parameters,
+            const Options                  &options,
+            const dealii::ParameterHandler &prm)
+  {
+    ResultFiles files(parameters.output.directory, MPI_COMM_WORLD);
+    Progress    progress = is_first_rank()
+                             ? Progress(std::cout, stdout_is_terminal(), &files.log())
+                             : Progress();
+    if (is_study(parameters))
+      {
+        files.begin(prm);
+        return run_levels(parameters, options.file, prm, progress) ? Outcome::finished
+                                                                   : Outcome::failed;
+      }
+    Simulation simulation(parameters, options.file, files, progress, MPI_COMM_WORLD);
+    if (options.resume)
+      {
+        simulation.resume();
+        files.go_on(prm);
+      }
     else
-      PackedBed(parameters, file, files, progress, MPI_COMM_WORLD).run(resume);
+      files.begin(prm);
+    simulation.run();
+    return Outcome::finished;
   }
 
   // Reads, checks and runs. The output directory and whether a report is
@@ -103,6 +150,10 @@ namespace
           file.set(assignment);
         if (!options.output.empty())
           file.set("Output/directory=" + options.output);
+        if (options.print_columns && is_first_rank())
+          print_columns();
+        if (options.print_columns)
+          return Outcome::told;
         if (options.print_parameters)
           {
             if (is_first_rank())
@@ -111,7 +162,13 @@ namespace
                                      dealii::ParameterHandler::KeepDeclarationOrder);
             return Outcome::told;
           }
+        parameters.texts = file.texts();
         parameters.check();
+        require(!options.resume || !is_study(parameters),
+                "Refinement study/vary",
+                "a study cannot be resumed; run it without --resume");
+        check_levels(parameters);
+        check_input_files(parameters);
         if (options.check)
           {
             if (is_first_rank())
@@ -119,22 +176,10 @@ namespace
                         << std::endl;
             return Outcome::told;
           }
-        require(!options.resume ||
-                  !(parameters.manufactured.is_given() || parameters.study.is_wanted()),
-                "Refinement study/vary",
-                "a study cannot be resumed; run it without --resume");
-        if (options.resume) // before anything is touched
-          read_checkpoint(parameters.output.directory + "/checkpoint",
-                          identity_of_run(parameters));
-        ResultFiles files(parameters.output.directory, MPI_COMM_WORLD, options.resume);
-        files.write_parameters(prm);
-        Progress progress = is_first_rank()
-                              ? Progress(std::cout, stdout_is_terminal(), &files.log())
-                              : Progress();
-        run_whole(parameters, options.file, options.resume, files, progress);
-        directory = parameters.output.directory;
-        report    = parameters.output.report;
-        return Outcome::finished;
+        const Outcome outcome = run_whole(parameters, options, prm);
+        directory             = parameters.output.directory;
+        report                = parameters.output.report;
+        return outcome;
       }
     catch (const InputError &error)
       {
@@ -150,6 +195,7 @@ main(int argc, char **argv)
 {
   std::string directory;
   bool        report = false, first = true;
+  Outcome     outcome = Outcome::finished;
   {
     dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
     first = is_first_rank();
@@ -168,7 +214,7 @@ main(int argc, char **argv)
       {
         return first ? app.exit(message) : message.get_exit_code();
       }
-    if (options.file.empty() && !options.print_parameters)
+    if (options.file.empty() && !options.print_parameters && !options.print_columns)
       {
         if (first)
           std::cerr << "Which parameter file?\n\n" << app.help();
@@ -177,8 +223,8 @@ main(int argc, char **argv)
 
     try
       {
-        const Outcome outcome = run(options, directory, report);
-        if (outcome != Outcome::finished)
+        outcome = run(options, directory, report);
+        if (outcome == Outcome::told || outcome == Outcome::refused)
           return outcome == Outcome::told ? 0 : 1;
       }
     catch (const std::exception &error)
@@ -196,5 +242,5 @@ main(int argc, char **argv)
   if (first)
     std::cout << "Results are in " << directory << (report ? " (open report.html)" : "")
               << std::endl;
-  return 0;
+  return outcome == Outcome::finished ? 0 : 1;
 }

@@ -1,40 +1,58 @@
 #include <graupel/closures/bed_correlations.h>
-#include <graupel/dem/dem.h>
 #include <graupel/simulation/original_bed.h>
-#include <graupel/simulation/packing.h>
+#include <graupel/simulation/phases/packing_phases.h>
 
 #include <iomanip>
 #include <sstream>
 
 namespace graupel
 {
+  namespace
+  {
+    const char *const bed_name = "original bed: ";
+
+    void
+    run_whole(Phase &phase)
+    {
+      phase.begin();
+      while (phase.step())
+        ;
+      phase.end();
+    }
+  } // namespace
+
+  RunParameters
+  parameters_of_original_bed(RunParameters parameters)
+  {
+    parameters.dem.particles.scale = 1.;
+    for (ParticleType &type : parameters.dem.particles.further_types)
+      type.scale = 1.;
+    parameters.filling.count      = 0;
+    parameters.filling.mass       = 0.;
+    parameters.filling.bed_height = parameters.original_bed.measured_height;
+    parameters.filling.start_from.clear();
+    parameters.settling.target_void_fraction =
+      parameters.original_bed.target_void_fraction;
+    return parameters;
+  }
+
   double
   measure_original_bed(const RunParameters &parameters,
                        Progress            &progress,
                        CostSheet           &costs,
                        MPI_Comm             communicator)
   {
-    DemParameters particles   = parameters.dem;
-    particles.particles.scale = 1.;
-    for (ParticleType &type : particles.particles.further_types)
-      type.scale = 1.;
-    FillingParameters filling     = parameters.filling;
-    filling.count                 = 0;
-    filling.mass                  = 0.;
-    filling.bed_height            = parameters.original_bed.measured_height;
-    SettlingParameters settling   = parameters.settling;
-    settling.target_void_fraction = parameters.original_bed.target_void_fraction;
+    SimulationState state(
+      parameters_of_original_bed(parameters), costs, progress, communicator, bed_name);
+    FillingPhase filling(state.parameters.filling, state);
+    run_whole(filling);
+    SettlingPhase settling(state.parameters.settling, state);
+    run_whole(settling);
 
-    VesselMesh        mesh(parameters.cylinder, parameters.mesh, communicator);
-    Dem               dem(particles, mesh, costs);
-    const std::string name = "original bed: ";
-    fill_vessel(filling, dem, progress, name);
-    settle_bed(settling, dem, progress, name);
-
-    const auto bed = BedObservables(dem.particles(), dem.cylinder(), communicator).bed();
+    const auto         bed = state.bed();
     std::ostringstream text;
-    text << std::setprecision(4) << "original bed: " << dem.n_global()
-         << " particles, height " << bed.height * 1e3 << " mm, mean void fraction "
+    text << std::setprecision(4) << bed_name << state.dem.n_global()
+         << " particles, height " << bed.height() * 1e3 << " mm, mean void fraction "
          << bed.mean_void_fraction << ", in the middle half "
          << 1. - bed.bulk_solid_fraction;
     progress.say(text.str());

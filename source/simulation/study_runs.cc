@@ -1,4 +1,4 @@
-#include <graupel/simulation/result_files.h>
+#include <graupel/simulation/files/result_files.h>
 #include <graupel/simulation/study_runs.h>
 
 #include <sstream>

@@ -3,11 +3,26 @@
 
 namespace graupel
 {
+  std::vector<std::optional<double>>
+  SweepParameters::cases() const
+  {
+    if (mode == "particles alone")
+      return {std::nullopt};
+    return {superficial_velocities.begin(), superficial_velocities.end()};
+  }
+
+  bool
+  SweepParameters::has_fluid() const
+  {
+    return mode != "particles alone" && !superficial_velocities.empty();
+  }
+
   double
   SweepParameters::case_duration(const double superficial_velocity,
                                  const double height) const
   {
-    return stop_when == "steady" ? maximum_time
+    return duration > 0.          ? duration
+           : stop_when == "steady" ? maximum_time
                                  : flow_throughs * height / superficial_velocity;
   }
 
@@ -19,15 +34,18 @@ namespace graupel
       "superficial velocities",
       superficial_velocities,
       "The flow cases, one superficial velocity each, run one after the other "
-      "on the same bed; an empty list ends the run after settling [m/s].");
+      "on the same bed: V of the boundary conditions. Where these set the flow by "
+      "themselves, by a pressure say, it is a name only, and what really flows is "
+      "reported. An empty list ends the run after settling [m/s].");
     prm.add_parameter(
       "mode",
       mode,
       "transient: fluid and particles move through time; steady: each case is the steady "
       "flow through the resting bed, found in some ten linear systems, after which the "
       "particles are held against it for one steady window; automatic: steady while the "
-      "bed rests against the flow, and transient from where it does not.",
-      dealii::Patterns::Selection("transient|steady|automatic"));
+      "bed rests against the flow, and transient from where it does not; particles alone: "
+      "no fluid at all, the particles move for Flow/duration.",
+      dealii::Patterns::Selection("transient|steady|automatic|particles alone"));
     prm.add_parameter("maximum solves",
                       maximum_solves,
                       "Linear systems after which a steady flow has not been found [-].");
@@ -59,6 +77,10 @@ namespace graupel
       "How often the superficial velocity must cross the height of the vessel: "
       "the case lasts n H / V_s [-].");
     prm.add_parameter(
+      "duration",
+      duration,
+      "Simulated time of a case, in place of a number of flow-throughs; 0 for these [s].");
+    prm.add_parameter(
       "steady tolerance",
       steady_tolerance,
       "Relative change within the steady window below which a monitor counts as "
@@ -76,10 +98,22 @@ namespace graupel
   SweepParameters::check() const
   {
     for (const double velocity : superficial_velocities)
-      require(
-        velocity > 0. && std::isfinite(velocity),
-        "Flow/superficial velocities",
-        "every superficial velocity must be positive: the gas enters at the bottom");
+      require(velocity >= 0. && std::isfinite(velocity),
+              "Flow/superficial velocities",
+              "a superficial velocity is not negative; where the fluid enters is told by "
+              "the boundary conditions");
+    require(duration >= 0. && std::isfinite(duration),
+            "Flow/duration",
+            "must not be negative; 0 is for a number of flow-throughs");
+    require(mode != "particles alone" || duration > 0.,
+            "Flow/duration",
+            "particles alone move for this time: choose a positive one, in seconds");
+    for (const double velocity : superficial_velocities)
+      require(velocity > 0. || duration > 0. || stop_when == "steady" ||
+                mode == "steady" || mode == "particles alone",
+              "Flow/duration",
+              "a case of no superficial velocity has no flow-through to end with: give "
+              "its duration, in seconds");
     require(
       time_step > 0. && std::isfinite(time_step),
       "Flow/time step",
@@ -129,6 +163,12 @@ namespace graupel
       "--resume "
       "goes on, beside those at the ends of settling and of each flow case and before a "
       "step that fails; 0 for no more than these [min].");
+    prm.add_parameter(
+      "probes",
+      probes,
+      "Points at which the fluid is watched in probes.csv: NAME: x y z, separated by bars "
+      "(|), as in \"low: 0 0 0.01 | high: 0 0 0.15\" [m].",
+      dealii::Patterns::Anything());
     prm.add_parameter(
       "report", report, "Whether report.html is made at the end of the run.");
     prm.leave_subsection();

@@ -7,6 +7,9 @@
 
 namespace graupel
 {
+  /** The parameters of a short bed of the original particles, to be measured. */
+  RunParameters parameters_of_original_bed(RunParameters parameters);
+
   /**
    * Settles a short bed of the original particles, prepared as the simulated one is,
    * and gives its solid fraction over its middle half [-]. Collective.

@@ -2,6 +2,7 @@
 #define graupel_simulation_run_parameters_h
 
 #include <graupel/coupling/exchange.h>
+#include <graupel/dem/packing/feed_parameters.h>
 #include <graupel/dem/packing/filling.h>
 #include <graupel/dem/packing/settling.h>
 #include <graupel/fluid/manufactured_solution.h>
@@ -21,6 +22,7 @@ namespace graupel
     DemParameters          dem;
     FillingParameters      filling;
     SettlingParameters     settling;
+    std::array<FeedParameters, 3> feeds;
     FluidProperties        fluid;
     DragParameters         drag;
     CouplingParameters     coupling;
@@ -30,6 +32,9 @@ namespace graupel
     OutputParameters       output;
     StudyParameters        study;
     ManufacturedParameters manufactured;
+
+    /** Every parameter by its path, as the file or its default has it. */
+    std::map<std::string, std::string> texts;
 
     /** Declares every section of the parameter file. */
     void declare(dealii::ParameterHandler &prm);

@@ -3,6 +3,7 @@
 
 #include <deal.II/base/parameter_handler.h>
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,8 +14,8 @@ namespace graupel
   {
     /** One flow case each, run one after the other on the same bed [m/s]. */
     std::vector<double> superficial_velocities{0.271, 0.320, 0.368, 0.423, 0.476, 0.534};
-    /** "transient"; "steady": each case is the steady flow through the resting bed; or
-     * "automatic": steady as long as the bed rests. */
+    /** "transient"; "steady": each case is the steady flow through the resting bed;
+     * "automatic": steady as long as the bed rests; or "particles alone": no fluid. */
     std::string mode = "transient";
     /** Linear systems after which a steady flow has not been found [-]. */
     unsigned int maximum_solves = 100;
@@ -28,12 +29,20 @@ namespace graupel
     std::string stop_when = "flow-throughs";
     /** Times that the superficial velocity crosses the vessel's height [-]. */
     double flow_throughs = 2.;
+    /** Of a case; 0: by flow-throughs [s]. */
+    double duration = 0.;
     /** Relative change over the steady window below which a monitor is steady [-]. */
     double steady_tolerance = 1e-3;
     /** [s] */
     double steady_window = 0.1;
     /** Longest duration of a case that ends when steady [s]. */
     double maximum_time = 10.;
+
+    /** The velocity of each case [m/s]; one without any where the particles are alone. */
+    std::vector<std::optional<double>> cases() const;
+
+    /** Whether a fluid flows in the run. */
+    bool has_fluid() const;
 
     /** Duration of a case at most [s]. */
     double case_duration(const double superficial_velocity, const double height) const;
@@ -60,6 +69,8 @@ namespace graupel
     /** Wall-clock time between two checkpoints beside those at the ends of settling and
      * cases; 0: none [min]. */
     double checkpoint_interval = 10.;
+    /** Points at which the fluid is watched: "NAME: x y z | ..." [m]. */
+    std::string probes;
     /** Whether report.html is made at the end. */
     bool report = true;
 

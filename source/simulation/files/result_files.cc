@@ -1,7 +1,7 @@
 #include <graupel/base/parameters.h>
-#include <graupel/simulation/contact_output.h>
-#include <graupel/simulation/particle_output.h>
-#include <graupel/simulation/result_files.h>
+#include <graupel/simulation/files/contact_output.h>
+#include <graupel/simulation/files/particle_output.h>
+#include <graupel/simulation/files/result_files.h>
 
 #include <deal.II/base/data_out_base.h>
 #include <deal.II/dofs/dof_tools.h>
@@ -17,12 +17,35 @@ namespace graupel
 {
   namespace
   {
-    // Everything that a run writes, so that a new one can take it away first.
+    namespace fs = std::filesystem;
+
+    // Everything that a run or a study writes, so that a new one can take it away first,
+    // and nothing else.
     const std::regex own_files(
-      "(parameters\\.prm|log\\.txt|summary\\.json|cases\\.csv|"
-      "monitors\\.csv|(profiles|radial|midplane)-[0-9]+\\.csv|"
+      "(parameters\\.prm|log\\.txt|summary\\.json|cases\\.csv|study\\.csv|"
+      "monitors\\.csv|probes\\.csv|wall-forces\\.csv|"
+      "(profiles|radial|midplane)-[0-9]+\\.csv|"
       "bed-(axial|radial|janssen|coordination|contacts)\\.csv|"
       "(solution|particles|contacts)\\.pvd|report\\.html|bed\\.bin)");
+    const std::regex own_vtu("(solution|particles|contacts)_[0-9.]+\\.p?vtu");
+    const std::regex own_figures(
+      "(pressure-profile|pressure-drop|deviation|bottom-force|bed-height|void-fraction|"
+      "flux|radial|bed-radial|bed-janssen|monitors|cost|probes|particles|study[a-z-]*)"
+      "\\.png");
+    const std::regex own_checkpoint("(state|version)\\.bin|fields.*");
+
+    void
+    remove_own(const fs::path &folder, const std::regex &own)
+    {
+      if (!fs::is_directory(folder))
+        return;
+      std::vector<fs::path> found;
+      for (const auto &entry : fs::directory_iterator(folder))
+        if (std::regex_match(entry.path().filename().string(), own))
+          found.push_back(entry.path());
+      for (const auto &path : found)
+        fs::remove(path);
+    }
 
     // All ranks write into one file: a rank without particles would otherwise leave
     // a file without points, which ParaView complains about.
@@ -30,18 +53,20 @@ namespace graupel
     constexpr unsigned int counter_digits = 4;
 
     void
-    prepare_directory(const std::string &directory)
+    prepare_directory(const fs::path &directory)
     {
-      namespace fs = std::filesystem;
       fs::create_directories(directory);
-      for (const auto &entry : fs::directory_iterator(directory))
-        if (std::regex_match(entry.path().filename().string(), own_files))
-          fs::remove(entry.path());
-      for (const char *folder :
-           {"vtu", "figures", "checkpoint", "checkpoint.new", "checkpoint.old"})
-        fs::remove_all(fs::path(directory) / folder);
-      fs::create_directory(fs::path(directory) / "vtu");
-      std::ofstream trial(fs::path(directory) / "log.txt");
+      remove_own(directory, own_files);
+      remove_own(directory / "vtu", own_vtu);
+      remove_own(directory / "figures", own_figures);
+      for (const char *folder : {"checkpoint", "checkpoint.new", "checkpoint.old"})
+        {
+          remove_own(directory / folder, own_checkpoint);
+          if (fs::is_directory(directory / folder) && fs::is_empty(directory / folder))
+            fs::remove(directory / folder);
+        }
+      fs::create_directory(directory / "vtu");
+      std::ofstream trial(directory / "log.txt");
       if (!trial)
         throw std::runtime_error("no file can be made there");
     }
@@ -83,19 +108,24 @@ namespace graupel
     }
   } // namespace
 
-  ResultFiles::ResultFiles(const std::string &directory,
-                           MPI_Comm           communicator,
-                           const bool         goes_on)
+  ResultFiles::ResultFiles(const std::string &directory, MPI_Comm communicator)
     : directory(directory)
     , communicator(communicator)
     , is_writer(dealii::Utilities::MPI::this_mpi_process(communicator) == 0)
+    , monitors(path("monitors.csv"))
+    , probes(path("probes.csv"))
+    , wall_forces(path("wall-forces.csv"))
+  {
+  }
+
+  void
+  ResultFiles::begin(const dealii::ParameterHandler &prm)
   {
     std::string failure;
     if (is_writer)
       try
         {
-          if (!goes_on)
-            prepare_directory(directory);
+          prepare_directory(directory);
         }
       catch (const std::exception &error)
         {
@@ -105,36 +135,31 @@ namespace graupel
     require(failure.empty(),
             "Output/directory",
             "cannot be written (" + failure + "); choose another with --output");
+    open_log(std::ios::out);
+    write_parameters(prm);
+  }
+
+  void
+  ResultFiles::go_on(const dealii::ParameterHandler &prm)
+  {
+    open_log(std::ios::app);
+    write_parameters(prm);
+  }
+
+  void
+  ResultFiles::open_log(const std::ios::openmode mode)
+  {
     if (is_writer)
-      {
-        log_stream.open(path("log.txt"), goes_on ? std::ios::app : std::ios::out);
-        if (goes_on)
-          return;
-        monitors = open("monitors.csv");
-        monitors
-          << "time,phase,case,superficial_velocity,pressure_drop,bed_height,bottom_force,"
-             "wall_force,fluid_force,kinetic_energy_per_particle,maximum_speed,"
-             "mass_imbalance,momentum_imbalance,solid_volume_error,linear_iterations,"
-             "cells,worst_node_imbalance,worst_cell_imbalance\n";
-      }
+      log_stream.open(path("log.txt"), mode);
   }
 
   void
   ResultFiles::continue_from(const Written &earlier, const double time)
   {
     records = earlier;
-    if (!is_writer)
-      return;
-    std::ifstream            before(path("monitors.csv"));
-    std::vector<std::string> lines;
-    // The header does not begin with a number.
-    for (std::string line; std::getline(before, line);)
-      if (lines.empty() || std::strtod(line.c_str(), nullptr) <= time * (1. + 1e-9))
-        lines.push_back(line);
-    before.close();
-    monitors = open("monitors.csv");
-    for (const std::string &line : lines)
-      monitors << line << '\n';
+    if (is_writer)
+      for (GrowingTable *table : {&monitors, &probes, &wall_forces})
+        table->continue_from(time);
   }
 
   std::string
@@ -167,16 +192,22 @@ namespace graupel
   void
   ResultFiles::add_monitor(const MonitorRow &row)
   {
-    if (!is_writer)
-      return;
-    monitors << row.time << ',' << row.phase << ',' << row.flow_case << ','
-             << row.superficial_velocity << ',' << row.pressure_drop << ','
-             << row.bed_height << ',' << row.bottom_force << ',' << row.wall_force << ','
-             << row.fluid_force << ',' << row.kinetic_energy << ',' << row.maximum_speed
-             << ',' << row.mass_imbalance << ',' << row.momentum_imbalance << ','
-             << row.solid_volume_error << ',' << row.linear_iterations << ',' << row.cells
-             << ',' << row.worst_node_imbalance << ',' << row.worst_cell_imbalance
-             << std::endl;
+    if (is_writer)
+      monitors.add(monitors_header(), csv_row(row));
+  }
+
+  void
+  ResultFiles::add_probes(const std::string &header, const std::string &row)
+  {
+    if (is_writer)
+      probes.add(header, row);
+  }
+
+  void
+  ResultFiles::add_wall_forces(const std::string &header, const std::string &row)
+  {
+    if (is_writer)
+      wall_forces.add(header, row);
   }
 
   void
@@ -185,38 +216,33 @@ namespace graupel
     if (!is_writer)
       return;
     auto stream = open("cases.csv");
-    stream
-      << "superficial_velocity,pressure_drop,ergun_pressure_drop,deviation_from_ergun,"
-         "gradient_deviation_from_ergun,wall_channelling_deviation,"
-         "bed_height,bed_rise,"
-         "mean_void_fraction,bottom_force,wall_force,fluid_force,weight,fluidized,steady,"
-         "simulated_time,wall_seconds,cpu_seconds\n";
-    for (const CaseResult &row : cases)
-      stream << row.superficial_velocity << ',' << row.pressure_drop << ','
-             << row.ergun_pressure_drop << ',' << row.deviation_from_ergun << ','
-             << row.gradient_deviation_from_ergun << ',' << row.wall_channelling_deviation
-             << ',' << row.bed_height << ',' << row.bed_rise << ','
-             << row.mean_void_fraction << ',' << row.bottom_force << ',' << row.wall_force
-             << ',' << row.fluid_force << ',' << row.weight << ',' << row.fluidized << ','
-             << row.steady << ',' << row.simulated_time << ',' << row.wall_seconds << ','
-             << row.cpu_seconds << '\n';
+    stream << header(case_quantities()) << '\n';
+    for (const CaseResult &flow : cases)
+      stream << csv_row(case_quantities(), flow.values) << '\n';
   }
 
   void
-  ResultFiles::write_axial(const unsigned int             number,
-                           const std::vector<RegionMean> &profile,
-                           const CaseResult              &result)
+  ResultFiles::write_axial(const unsigned int number,
+                           const CaseView    &flow,
+                           const CaseResult  &result)
   {
-    if (!is_writer)
+    if (!is_writer || flow.axial.empty())
       return;
-    auto stream = open(numbered("profiles", number));
+    const auto   bed    = flow.whole_bed();
+    const Value &ergun  = result["ergun_pressure_drop"];
+    auto         stream = open(numbered("profiles", number));
     stream << "z,pressure,void_fraction,superficial_velocity,ergun_pressure\n";
-    for (const RegionMean &slab : profile)
-      stream << slab.height << ',' << slab.pressure << ',' << slab.void_fraction << ','
-             << slab.flux << ','
-             << result.ergun_pressure_drop *
-                  std::max(0., 1. - slab.height / result.bed_height)
-             << '\n';
+    for (const RegionMean &slab : flow.axial)
+      {
+        stream << slab.height << ',' << slab.pressure << ',' << slab.void_fraction << ','
+               << slab.flux << ',';
+        if (bed && ergun)
+          stream << *ergun * std::clamp((bed->bottom + bed->height - slab.height) /
+                                           bed->height,
+                                         0.,
+                                         1.);
+        stream << '\n';
+      }
   }
 
   void
@@ -244,6 +270,12 @@ namespace graupel
     for (const PlanePoint &point : points)
       stream << point.x << ',' << point.z << ',' << point.void_fraction << ','
              << point.flux << ',' << point.pressure << '\n';
+  }
+
+  void
+  ResultFiles::add_fields(const double time, const CoupledFlow &fluid)
+  {
+    add_fields(time, fluid.nodes(), fluid.exchange().medium(), fluid.fluid());
   }
 
   void

@@ -1,4 +1,4 @@
-#include <graupel/simulation/summary.h>
+#include <graupel/simulation/files/summary.h>
 
 #include <deal.II/base/config.h>
 
@@ -14,14 +14,21 @@ namespace graupel
     using Json = nlohmann::ordered_json; // a number that is not finite becomes null
 
     Json
+    to_json(const Value &value)
+    {
+      return value ? Json(*value) : Json();
+    }
+
+    Json
     to_json(const BedResult &bed)
     {
       return {{"particle_count", bed.particle_count},
               {"particle_diameter", bed.particle_diameter},
               {"scale", bed.scale},
               {"solid_volume", bed.solid_volume},
-              {"height", bed.height},
-              {"mean_void_fraction", bed.mean_void_fraction},
+              {"bottom", to_json(bed.bottom)},
+              {"height", to_json(bed.height)},
+              {"mean_void_fraction", to_json(bed.mean_void_fraction)},
               {"mean_coordination_number", bed.mean_coordination_number},
               {"original_diameter", bed.original_diameter},
               {"vessel_diameter", bed.vessel_diameter},
@@ -32,24 +39,14 @@ namespace graupel
     Json
     to_json(const CaseResult &result)
     {
-      return {{"superficial_velocity", result.superficial_velocity},
-              {"pressure_drop", result.pressure_drop},
-              {"ergun_pressure_drop", result.ergun_pressure_drop},
-              {"deviation_from_ergun", result.deviation_from_ergun},
-              {"gradient_deviation_from_ergun", result.gradient_deviation_from_ergun},
-              {"wall_channelling_deviation", result.wall_channelling_deviation},
-              {"bed_height", result.bed_height},
-              {"bed_rise", result.bed_rise},
-              {"mean_void_fraction", result.mean_void_fraction},
-              {"bottom_force", result.bottom_force},
-              {"wall_force", result.wall_force},
-              {"fluid_force", result.fluid_force},
-              {"weight", result.weight},
-              {"fluidized", result.fluidized},
-              {"steady", result.steady},
-              {"simulated_time", result.simulated_time},
-              {"wall_seconds", result.wall_seconds},
-              {"cpu_seconds", result.cpu_seconds}};
+      Json        json;
+      const auto &table = case_quantities();
+      for (std::size_t n = 0; n < table.size(); ++n)
+        if (const Value &value = result.values[n]; value && table[n].unit == "flag")
+          json[table[n].name] = *value != 0.;
+        else
+          json[table[n].name] = to_json(value);
+      return json;
     }
 
     Json

@@ -1,9 +1,10 @@
-#ifndef graupel_simulation_result_files_h
-#define graupel_simulation_result_files_h
+#ifndef graupel_simulation_files_result_files_h
+#define graupel_simulation_files_result_files_h
 
 #include <graupel/dem/bed/bed_profiles.h>
 #include <graupel/fluid/flow_solver.h>
-#include <graupel/simulation/case_result.h>
+#include <graupel/simulation/files/growing_table.h>
+#include <graupel/simulation/observers/case_result.h>
 #include <graupel/simulation/profiles.h>
 
 #include <fstream>
@@ -18,15 +19,18 @@ namespace graupel
   class ResultFiles
   {
   public:
+    /** Touches nothing yet. */
+    ResultFiles(const std::string &directory, MPI_Comm communicator);
+
     /**
-     * Makes the directory, or takes the results of an earlier run out of it; with
-     * @p goes_on they stay, for continue_from().
-     * Throws InputError("Output/directory", ...) if it cannot be written.
-     * Collective.
+     * Makes the directory, or takes what earlier runs have written out of it, their own
+     * files only, and writes parameters.prm. Throws InputError("Output/directory", ...)
+     * if it cannot be written. Collective.
      */
-    ResultFiles(const std::string &directory,
-                MPI_Comm           communicator,
-                const bool         goes_on = false);
+    void begin(const dealii::ParameterHandler &prm);
+
+    /** The same where an earlier run goes on: only parameters.prm is written anew. */
+    void go_on(const dealii::ParameterHandler &prm);
 
     using Records = std::vector<std::pair<double, std::string>>;
 
@@ -53,19 +57,23 @@ namespace graupel
       return log_stream;
     }
 
-    /** parameters.prm: every value in use, in a form that can be run again. */
-    void write_parameters(const dealii::ParameterHandler &prm);
-
-    /** Adds a row to monitors.csv. */
+    /** A row of monitors.csv. */
     void add_monitor(const MonitorRow &row);
+
+    /** A row of probes.csv, on the rank 0. */
+    void add_probes(const std::string &header, const std::string &row);
+
+    /** A row of wall-forces.csv, on the rank 0. */
+    void add_wall_forces(const std::string &header, const std::string &row);
 
     /** cases.csv, anew. */
     void write_cases(const std::vector<CaseResult> &cases);
 
-    /** profiles-NN.csv of the flow case @p number, from 1 on, beside Ergun's pressure. */
-    void write_axial(const unsigned int             number,
-                     const std::vector<RegionMean> &profile,
-                     const CaseResult              &result);
+    /** profiles-NN.csv of the flow case @p number, from 1 on, beside Ergun's pressure
+     * where there is a bed. */
+    void write_axial(const unsigned int number,
+                     const CaseView    &flow,
+                     const CaseResult  &result);
 
     /** radial-NN.csv; @p radius of the vessel [m]. */
     void write_radial(const unsigned int             number,
@@ -83,6 +91,9 @@ namespace graupel
     void write_bed(const BedProfiles &bed);
 
     /** Adds the fields at @p time [s] to solution.pvd. Collective. */
+    void add_fields(const double time, const CoupledFlow &fluid);
+
+    /** The same of a flow without particles. Collective. */
     void add_fields(const double      time,
                     const NodalSpace &nodes,
                     const Medium     &medium,
@@ -98,13 +109,16 @@ namespace graupel
     std::string path(const std::string &name) const;
 
   private:
+    void          open_log(const std::ios::openmode mode);
+    void          write_parameters(const dealii::ParameterHandler &prm);
     std::ofstream open(const std::string &name) const;
     void          write_records(const std::string &name, const Records &records) const;
 
     const std::string directory;
     const MPI_Comm    communicator;
     const bool        is_writer;
-    std::ofstream     log_stream, monitors;
+    std::ofstream     log_stream;
+    GrowingTable      monitors, probes, wall_forces;
     Written           records;
   };
 } // namespace graupel

@@ -1,11 +1,13 @@
 #include <graupel/base/parameters.h>
-#include <graupel/simulation/checkpoint.h>
+#include <graupel/simulation/files/checkpoint.h>
+#include <graupel/simulation/files/may_change.h>
 
 #include <boost/archive/binary_iarchive.hpp>
 #include <boost/archive/binary_oarchive.hpp>
 #include <boost/serialization/array.hpp>
 #include <boost/serialization/binary_object.hpp>
 #include <boost/serialization/map.hpp>
+#include <boost/serialization/string.hpp>
 #include <boost/serialization/utility.hpp>
 #include <boost/serialization/vector.hpp>
 
@@ -40,49 +42,36 @@ namespace graupel
         raw(archive, record);
     }
 
-    // All but the name of the phase, which is the flow.
     template <class Archive>
     void
-    serialize_row(Archive &archive, MonitorRow &row)
+    exchange(Archive &archive, std::vector<CaseResult> &cases)
     {
-      row.phase = "flow";
-      for (double *value : {&row.time,
-                            &row.superficial_velocity,
-                            &row.pressure_drop,
-                            &row.bed_height,
-                            &row.bottom_force,
-                            &row.wall_force,
-                            &row.fluid_force,
-                            &row.kinetic_energy,
-                            &row.maximum_speed,
-                            &row.mass_imbalance,
-                            &row.momentum_imbalance,
-                            &row.solid_volume_error,
-                            &row.worst_node_imbalance,
-                            &row.worst_cell_imbalance})
-        archive &*value;
-      for (unsigned int *count : {&row.flow_case, &row.linear_iterations, &row.cells})
-        archive &*count;
+      std::size_t n = cases.size();
+      archive    &n;
+      cases.resize(n);
+      for (CaseResult &result : cases)
+        {
+          std::vector<double> numbers = result.values.numbers();
+          archive            &numbers;
+          result.values = Values::of_numbers(numbers);
+        }
     }
 
     template <class Archive>
     void
     exchange(Archive &archive, RunState &state)
     {
-      archive &state.identity &state.time &state.next_output;
-      raw(archive, state.bed);
-      raw(archive, state.cases);
+      archive &state.parameters &state.time &state.next_output &state.next_adaption;
+      raw(archive, state.rest);
+      exchange(archive, state.cases);
+      archive &state.last_velocity &state.has_begun &state.feeds;
       raw(archive, state.ledger);
       raw(archive, state.costs);
       archive &state.wall_seconds &state.cpu_seconds;
       archive &state.written.fields &state.written.particles &state.written.contacts;
-      archive &state.has_fluid &state.fluid_time &state.in_case;
-      archive &state.velocity &state.case_begin &state.ramp_from;
-      std::size_t                                n = state.case_rows.size();
-      archive                                   &n;
-      state.case_rows.resize(n);
-      for (MonitorRow &row : state.case_rows)
-        serialize_row(archive, row);
+      archive &state.phase_number &state.phase &state.has_fluid;
+      raw(archive, state.velocity);
+      raw(archive, state.fluid);
     }
 
     // The version goes first; false if the file is another's.
@@ -96,40 +85,7 @@ namespace graupel
 
     const char *const another_version =
       " was written by another version of the program and cannot be read";
-
-    void
-    compare(const Identity &here, const Identity &there, const std::string &where)
-    {
-      for (const auto &[parameter, value] : here)
-        if (const auto other = there.find(parameter);
-            other != there.end() && other->second != value)
-          {
-            std::ostringstream text;
-            text << where << " has " << other->second << " instead of " << value
-                 << "; set it back, or begin anew";
-            throw InputError(parameter, text.str());
-          }
-    }
   } // namespace
-
-  Identity
-  identity_of_bed(const RunParameters &parameters)
-  {
-    return {{"Geometry/diameter", parameters.cylinder.diameter},
-            {"Particles/diameter", parameters.dem.particles.diameter},
-            {"Particles/scale", parameters.dem.particles.scale}};
-  }
-
-  Identity
-  identity_of_run(const RunParameters &parameters)
-  {
-    Identity result             = identity_of_bed(parameters);
-    result["Geometry/height"]   = parameters.cylinder.height;
-    result["Particles/density"] = parameters.dem.particles.density;
-    result["Mesh/cell size"]    = parameters.mesh.cell_size;
-    result["Mesh/cell height"]  = parameters.mesh.cell_height;
-    return result;
-  }
 
   std::string
   checkpoint_fields(const std::string &folder)
@@ -183,7 +139,9 @@ namespace graupel
   }
 
   std::pair<RunState, DemState>
-  read_checkpoint(const std::string &folder, const Identity &identity)
+  read_checkpoint(const std::string        &folder,
+                  const RunParameters      &parameters,
+                  std::vector<std::string> &changes)
   {
     const std::string             file = folder + "/state.bin";
     std::ifstream                 stream(file, std::ios::binary);
@@ -204,23 +162,29 @@ namespace graupel
       {
         throw InputError("Output/directory", file + " is cut off or damaged");
       }
-    compare(identity, result.first.identity, "the checkpoint " + folder);
+    changes = check_changes(parameters.texts,
+                            result.first.parameters,
+                            result.first.phase.empty() ? Standing::between_phases :
+                                                         Standing::within_phase,
+                            "the checkpoint " + folder);
     return result;
   }
 
   void
-  write_bed(const std::string &file, const Identity &identity, const DemState &particles)
+  write_bed(const std::string   &file,
+            const RunParameters &parameters,
+            const DemState      &particles)
   {
     std::ofstream                   stream(file, std::ios::binary);
     boost::archive::binary_oarchive archive(stream);
     const std::string               version = GRAUPEL_VERSION;
-    archive << version << identity << particles;
+    archive << version << parameters.texts << particles;
     if (!stream.flush())
       throw std::runtime_error("Cannot write " + file + ": is the disk full?");
   }
 
   DemState
-  read_bed(const std::string &file, const Identity &identity)
+  read_bed(const std::string &file, const RunParameters &parameters)
   {
     const std::string parameter = "Filling/start from";
     std::ifstream     stream(file, std::ios::binary);
@@ -228,8 +192,8 @@ namespace graupel
             parameter,
             "there is no settled bed " + file +
               "; name the output directory of a run whose bed has settled");
-    Identity there;
-    DemState result;
+    ParameterTexts there;
+    DemState       result;
     try
       {
         boost::archive::binary_iarchive archive(stream);
@@ -240,7 +204,7 @@ namespace graupel
       {
         throw InputError(parameter, file + " is cut off or damaged");
       }
-    compare(identity, there, "the bed " + file);
+    check_changes(parameters.texts, there, Standing::settled_bed, "the bed " + file);
     return result;
   }
 } // namespace graupel

@@ -1,8 +1,8 @@
-#ifndef graupel_simulation_summary_h
-#define graupel_simulation_summary_h
+#ifndef graupel_simulation_files_summary_h
+#define graupel_simulation_files_summary_h
 
 #include <graupel/closures/fluid_properties.h>
-#include <graupel/simulation/case_result.h>
+#include <graupel/simulation/observers/case_result.h>
 
 #include <mpi.h>
 
@@ -12,8 +12,8 @@ namespace graupel
   struct Summary
   {
     std::string             parameter_file;
-    unsigned int            cells         = 0;  // of the mesh, at the end
-    double                  cross_section = 0.; // of the mesh, mean [m^2]
+    unsigned int            cells  = 0;  // of the mesh, at the end
+    double                  volume = 0.; // of the mesh [m^3]
     BedResult               bed;
     std::vector<CaseResult> cases;
     FluidProperties         fluid;

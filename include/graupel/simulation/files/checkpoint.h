@@ -1,0 +1,73 @@
+#ifndef graupel_simulation_files_checkpoint_h
+#define graupel_simulation_files_checkpoint_h
+
+#include <graupel/dem/dem_state.h>
+#include <graupel/simulation/files/result_files.h>
+#include <graupel/simulation/run_parameters.h>
+
+namespace graupel
+{
+  /** Where a run is, beside particles, mesh and fields. */
+  struct RunState
+  {
+    /** Every parameter by its path, as text. */
+    std::map<std::string, std::string> parameters;
+
+    double                   time          = 0.; // simulated [s]
+    double                   next_output   = 0.; // [s]
+    double                   next_adaption = 0.; // [s]
+    BedResult                rest;
+    std::vector<CaseResult>  cases; // those that have ended
+    double                   last_velocity = 0.; // V of the last of them [m/s]
+    bool                     has_begun     = false; // the first flow case
+    std::vector<std::string> feeds;
+    Ledger                   ledger;
+    CostSheet                costs; // of all ranks
+    double                   wall_seconds = 0., cpu_seconds = 0.;
+    ResultFiles::Written     written;
+
+    /** The phase that comes or goes on, and where it is; empty if it has not begun. */
+    std::size_t phase_number = 0;
+    std::string phase;
+    /** V of the flow case that comes or goes on [m/s]. */
+    Value velocity;
+
+    bool        has_fluid = false;
+    FlowHistory fluid;
+  };
+
+  /**
+   * Writes the checkpoint @p folder in place of the last one: @p state and @p particles
+   * (both as rank 0 has them) and whatever @p write_more puts into files whose names
+   * begin with its argument. The last checkpoint stays until the new one is whole.
+   * Collective.
+   */
+  void write_checkpoint(const std::string                              &folder,
+                        const RunState                                 &state,
+                        const DemState                                 &particles,
+                        const std::function<void(const std::string &)> &write_more,
+                        MPI_Comm                                        communicator);
+
+  /** Where write_more() of the checkpoint @p folder has put its files. */
+  std::string checkpoint_fields(const std::string &folder);
+
+  /**
+   * Reads a checkpoint on every rank. Throws InputError("Output/directory", ...) without
+   * one, and InputError naming the parameter where a value differs that a resumed run may
+   * not change (may_change()). What has changed and may is told in @p changes.
+   */
+  std::pair<RunState, DemState> read_checkpoint(const std::string        &folder,
+                                                const RunParameters      &parameters,
+                                                std::vector<std::string> &changes);
+
+  /** Writes a settled bed to @p file, on the rank that calls. */
+  void write_bed(const std::string   &file,
+                 const RunParameters &parameters,
+                 const DemState      &particles);
+
+  /** Reads it. Throws InputError("Filling/start from", ...) where there is none, and
+   * InputError naming the parameter where it is another vessel's or other particles. */
+  DemState read_bed(const std::string &file, const RunParameters &parameters);
+} // namespace graupel
+
+#endif

@@ -1,0 +1,16 @@
+#ifndef graupel_simulation_files_input_files_h
+#define graupel_simulation_files_input_files_h
+
+#include <graupel/simulation/run_parameters.h>
+
+namespace graupel
+{
+  /**
+   * Opens and reads every file that a run of @p parameters will need, and keeps none:
+   * mesh, surfaces, particle list, the bed of another run. Throws InputError naming the
+   * parameter of one that cannot be used.
+   */
+  void check_input_files(const RunParameters &parameters);
+} // namespace graupel
+
+#endif

@@ -1,0 +1,319 @@
+#include <graupel/closures/bed_correlations.h>
+#include <graupel/simulation/observers/case_result.h>
+
+namespace graupel
+{
+  namespace
+  {
+    // Share of the weight in the fluid that the walls still carry when the bed counts as
+    // lifted: at its onset the paper has 0.016 and 0.028 N of 0.5 N.
+    constexpr double lifted_load = 0.05;
+    // Part of a case, at its end, over which its numbers are means.
+    constexpr double averaged_part = 0.25;
+    // Slices of the bed over which Ergun's gradient is summed.
+    constexpr unsigned int n_slices = 32;
+  } // namespace
+
+  CaseView::CaseView(const Moment &end, const CaseCourse &course)
+    : end(end)
+    , course(course)
+  {
+    const SimulationState &state = end.state;
+    if (!state.fluid)
+      return;
+    const auto n_slabs = static_cast<unsigned int>(
+      std::max(10l,
+               std::lround(state.parameters.cylinder.height /
+                           state.parameters.mesh.cell_size)));
+    axial = axial_profile(fields(), n_slabs);
+    if (end.bed().exists())
+      look_at_middle();
+  }
+
+  FlowFields
+  CaseView::fields() const
+  {
+    const CoupledFlow &fluid = *end.state.fluid;
+    return {fluid.nodes(),
+            fluid.exchange().medium().void_fraction,
+            fluid.fluid().flux()[2],
+            fluid.fluid().pressure()};
+  }
+
+  void
+  CaseView::look_at_middle()
+  {
+    const SimulationState &state = end.state;
+    const double           low   = end.bed().bottom, high = end.bed().top;
+    const double lower = low + 0.25 * (high - low), upper = low + 0.75 * (high - low);
+    radial =
+      radial_profile(fields(), state.parameters.output.annuli, lower, upper);
+    middle_void_fraction =
+      1. - state.observables.solid_volume_between(lower, upper) /
+             state.dem.space().volume(lower, upper);
+    // The slabs must tell the two heights apart.
+    if (axial.size() >= 2 && upper - lower > axial[1].height - axial[0].height)
+      middle_gradient =
+        (pressure_at(axial, lower) - pressure_at(axial, upper)) / (upper - lower);
+  }
+
+  Value
+  CaseView::mean(const std::string &monitor) const
+  {
+    return mean_since(course.rows,
+                      course.begin + (1. - averaged_part) * course.simulated_time,
+                      monitor);
+  }
+
+  std::optional<CaseView::WholeBed>
+  CaseView::whole_bed() const
+  {
+    const auto &bed = end.bed();
+    if (bed.exists())
+      return WholeBed{bed.bottom, bed.height(), bed.mean_void_fraction};
+    const BedResult &rest = end.state.rest;
+    if (rest.height && end.state.dem.n_global() == rest.particle_count)
+      return WholeBed{*rest.bottom, *rest.height, *rest.mean_void_fraction};
+    return {};
+  }
+
+  double
+  CaseView::velocity_at(const double z) const
+  {
+    return end.upward_velocity(z).value_or(0.);
+  }
+
+  double
+  CaseView::ergun_gradient(const double void_fraction, const double velocity) const
+  {
+    if (velocity == 0.)
+      return 0.;
+    return std::copysign(ergun_pressure_gradient(end.state.parameters.fluid,
+                                                 end.state.rest.original_diameter,
+                                                 void_fraction,
+                                                 std::abs(velocity)),
+                         velocity);
+  }
+
+  namespace
+  {
+    std::function<Value(const CaseView &)>
+    mean_of(const std::string &monitor)
+    {
+      return [monitor](const CaseView &flow) { return flow.mean(monitor); };
+    }
+
+    std::function<Value(const CaseView &)>
+    last_of(const std::string &monitor)
+    {
+      const std::size_t place = place_of(monitor, monitors());
+      return [place](const CaseView &flow) {
+        return monitors()[place].value(flow.end);
+      };
+    }
+
+    Value
+    superficial_velocity(const CaseView &flow)
+    {
+      return flow.mean("superficial_velocity");
+    }
+
+    Value
+    nominal_velocity(const CaseView &flow)
+    {
+      return flow.course.nominal_velocity;
+    }
+
+    // Over the bed, with what flows through each slice of it.
+    Value
+    ergun_pressure_drop(const CaseView &flow)
+    {
+      const auto bed = flow.whole_bed();
+      if (!flow.end.state.fluid || !bed)
+        return {};
+      double sum = 0.;
+      for (unsigned int n = 0; n < n_slices; ++n)
+        sum += flow.ergun_gradient(
+          bed->void_fraction,
+          flow.velocity_at(bed->bottom + (n + 0.5) / n_slices * bed->height));
+      return sum / n_slices * bed->height;
+    }
+
+    Value
+    relative_deviation(const Value &value, const Value &expected)
+    {
+      if (!value || !expected || *expected == 0.)
+        return {};
+      return *value / *expected - 1.;
+    }
+
+    Value
+    deviation_from_ergun(const CaseView &flow)
+    {
+      return relative_deviation(flow.mean("pressure_drop"), ergun_pressure_drop(flow));
+    }
+
+    double
+    middle_velocity(const CaseView &flow)
+    {
+      return flow.velocity_at(0.5 * (flow.end.bed().bottom + flow.end.bed().top));
+    }
+
+    Value
+    gradient_deviation_from_ergun(const CaseView &flow)
+    {
+      if (!flow.middle_gradient)
+        return {};
+      return relative_deviation(
+        flow.middle_gradient,
+        flow.ergun_gradient(*flow.middle_void_fraction, middle_velocity(flow)));
+    }
+
+    Value
+    wall_channelling(const CaseView &flow)
+    {
+      if (flow.radial.empty() || middle_velocity(flow) == 0.)
+        return {};
+      return wall_channelling_deviation(flow.radial,
+                                        flow.end.state.parameters.fluid,
+                                        flow.end.state.rest.original_diameter,
+                                        std::abs(middle_velocity(flow)),
+                                        *flow.middle_void_fraction);
+    }
+
+    Value
+    bed_rise(const CaseView &flow)
+    {
+      const auto &bed = flow.end.bed();
+      const auto &rest = flow.end.state.rest;
+      if (!bed.exists() || !rest.height)
+        return {};
+      return bed.top - (*rest.bottom + *rest.height);
+    }
+
+    Value
+    fluidized(const CaseView &flow)
+    {
+      const SimulationState &state   = flow.end.state;
+      const Value            support = flow.mean("support_force");
+      if (!state.fluid || !support || state.dem.n_global() == 0)
+        return {};
+      const double net_weight =
+        state.dem.weight() - state.fluid->buoyancy_against_gravity();
+      return *support <= lifted_load * net_weight ? 1. : 0.;
+    }
+  } // namespace
+
+  const std::vector<Quantity<CaseView>> &
+  case_quantities()
+  {
+    const auto of_course = [](auto member) {
+      return [member](const CaseView &flow) -> Value {
+        return static_cast<double>(flow.course.*member);
+      };
+    };
+    static const std::vector<Quantity<CaseView>> table{
+      {"superficial_velocity",
+       "m/s",
+       "what really flowed: upward volumetric flow at the top of the bed, or at half of "
+       "the vessel's height without a bed, over the empty cross-section there",
+       superficial_velocity,
+       "superficial velocity",
+       "m/s"},
+      {"nominal_velocity",
+       "m/s",
+       "V of the case, from `Flow/superficial velocities`",
+       nominal_velocity},
+      {"pressure_drop",
+       "Pa",
+       "pressure drop",
+       mean_of("pressure_drop"),
+       "pressure drop",
+       "Pa"},
+      {"ergun_pressure_drop", "Pa", "Ergun's value", ergun_pressure_drop, "Ergun", "Pa"},
+      {"deviation_from_ergun",
+       "-",
+       "deviation from Ergun",
+       deviation_from_ergun,
+       "deviation",
+       "%",
+       100.},
+      {"gradient_deviation_from_ergun",
+       "-",
+       "gradient deviation",
+       gradient_deviation_from_ergun,
+       "in the middle half",
+       "%",
+       100.},
+      {"wall_channelling_deviation",
+       "-",
+       "wall-channelling deviation",
+       wall_channelling},
+      {"bed_height", "m", "bed height", last_of("bed_height"), "bed height", "mm", 1e3},
+      {"bed_bottom",
+       "m",
+       "where the bed begins, over the vessel's bottom",
+       last_of("bed_bottom")},
+      {"expanded_height",
+       "m",
+       "bed height that does not jump where bubbles and slugs pass, mean",
+       mean_of("expanded_height")},
+      {"bed_rise", "m", "top of the bed less that before the flow", bed_rise},
+      {"mean_void_fraction", "-", "mean void fraction", last_of("mean_void_fraction")},
+      {"bottom_force",
+       "N",
+       "bottom force",
+       mean_of("bottom_force"),
+       "bottom force",
+       "N"},
+      {"wall_force", "N", "wall force", mean_of("wall_force")},
+      {"support_force",
+       "N",
+       "support: what all walls carry",
+       mean_of("support_force"),
+       "support",
+       "N"},
+      {"fluid_force", "N", "fluid force", mean_of("fluid_force")},
+      {"weight", "N", "weight of the particles", mean_of("weight")},
+      {"particles", "-", "particles in the vessel", last_of("particles"), "particles"},
+      {"departed_particles",
+       "-",
+       "particles that have left through open ends since the run began",
+       last_of("departed_particles")},
+      {"fed_particles",
+       "-",
+       "particles that the feeds have brought in since the flow began",
+       last_of("fed_particles")},
+      {"fluidized",
+       "flag",
+       "the bed has lifted",
+       fluidized,
+       "the bed has lifted",
+       "flag"},
+      {"steady",
+       "flag",
+       "the monitors had become steady when the case ended",
+       of_course(&CaseCourse::is_steady),
+       "steady",
+       "flag"},
+      {"simulated_time",
+       "s",
+       "simulated time of the case",
+       of_course(&CaseCourse::simulated_time)},
+      {"wall_seconds",
+       "s",
+       "wall-clock time of the case",
+       of_course(&CaseCourse::wall_seconds)},
+      {"cpu_seconds",
+       "s",
+       "processor time of the case, summed over the ranks",
+       of_course(&CaseCourse::cpu_seconds)}};
+    return table;
+  }
+
+  const Value &
+  CaseResult::operator[](const std::string &quantity) const
+  {
+    return values[place_of(quantity, case_quantities())];
+  }
+} // namespace graupel

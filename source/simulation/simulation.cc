@@ -1,0 +1,356 @@
+#include <graupel/dem/bed/bed_profiles.h>
+#include <graupel/simulation/observers/wall_forces.h>
+#include <graupel/simulation/original_bed.h>
+#include <graupel/simulation/phases/packing_phases.h>
+#include <graupel/simulation/simulation.h>
+
+#include <iomanip>
+#include <sstream>
+
+namespace graupel
+{
+  namespace mpi = dealii::Utilities::MPI;
+
+  namespace
+  {
+    // Simulated time between two rows of monitors.csv while the bed is packed [s].
+    constexpr double packing_observation = 1e-2;
+
+    // Behind filling and settling.
+    constexpr std::size_t first_flow_phase = 2;
+
+    // Tells the height of the bed, its void fraction and how it is supported.
+    std::string
+    describe_bed(const BedResult &bed, const Dem &dem)
+    {
+      std::ostringstream text;
+      text << std::setprecision(4) << "bed: " << bed.particle_count << " particles";
+      if (bed.particle_count > 0)
+        text << " of " << bed.particle_diameter * 1e3 << " mm, "
+             << bed.mean_coordination_number << " contacts each";
+      if (bed.height)
+        text << ", height " << *bed.height * 1e3 << " mm, mean void fraction "
+             << *bed.mean_void_fraction;
+      if (dem.weight() > 0.)
+        text << "; bottom " << dem.bottom_force() << " N + wall " << dem.wall_force()
+             << " N of " << dem.supported_weight() << " N that all walls carry = "
+             << dem.supported_weight() / dem.weight() * 100. << " % of the weight";
+      return text.str();
+    }
+  } // namespace
+
+  Simulation::Simulation(const RunParameters &parameters,
+                         const std::string   &parameter_file,
+                         ResultFiles         &files,
+                         Progress            &progress,
+                         MPI_Comm             communicator)
+    : state(parameters, summary.costs, progress, communicator)
+    , files(files)
+    , probes(read_probes(parameters.output.probes))
+    , next_output(parameters.output.interval)
+    , started(Progress::steady_seconds())
+  {
+    summary.parameter_file = parameter_file;
+    summary.fluid          = parameters.fluid;
+    for (const FeedParameters &feed : parameters.feeds)
+      if (feed.is_wanted())
+        series.feeds.emplace_back(feed, state.dem);
+    if (!parameters.filling.start_from.empty())
+      given_bed = read_bed(parameters.filling.start_from + "/bed.bin", parameters);
+  }
+
+  void
+  Simulation::resume()
+  {
+    checkpoint =
+      read_checkpoint(files.path("checkpoint"), state.parameters, changed_parameters);
+    check_cases(checkpoint->first);
+  }
+
+  void
+  Simulation::check_cases(const RunState &saved) const
+  {
+    const auto        velocities = state.parameters.sweep.cases();
+    const std::string parameter  = "Flow/superficial velocities";
+    const auto        expect     = [&](const std::size_t n, const Value &there) {
+      const bool is_same = n < velocities.size() && velocities[n] == there;
+      std::ostringstream text;
+      text << "case " << n + 1 << " of the checkpoint "
+           << (n < saved.cases.size() ? "has ended" : "is under way") << " with ";
+      if (there)
+        text << *there << " m/s";
+      else
+        text << "no fluid";
+      text << "; keep it in its place, or begin anew without --resume";
+      require(is_same, parameter, text.str());
+    };
+    for (std::size_t n = 0; n < saved.cases.size(); ++n)
+      expect(n, saved.cases[n]["nominal_velocity"]);
+    if (saved.phase_number >= first_flow_phase && !saved.phase.empty())
+      expect(saved.cases.size(), saved.velocity);
+  }
+
+  void
+  Simulation::run()
+  {
+    std::ostringstream mesh_line;
+    mesh_line << "mesh: " << state.mesh.triangulation().n_global_active_cells()
+              << " cells, on " << mpi::n_mpi_processes(state.communicator) << " rank(s)";
+    state.progress.say(mesh_line.str());
+    if (const std::string difference = state.dem.space().difference(); !difference.empty())
+      state.progress.say("warning: " + difference);
+    if (checkpoint)
+      go_on_from(checkpoint->first);
+    while (phase_number < n_phases())
+      run_phase(*make_phase(phase_number));
+    write_summary_file();
+  }
+
+  std::size_t
+  Simulation::n_phases() const
+  {
+    return first_flow_phase + state.parameters.sweep.cases().size();
+  }
+
+  std::unique_ptr<Phase>
+  Simulation::make_phase(const std::size_t number)
+  {
+    const RunParameters &parameters = state.parameters;
+    if (number == 0 && given_bed)
+      return std::make_unique<TakingBed>(*given_bed, state);
+    if (number == 0)
+      return std::make_unique<FillingPhase>(parameters.filling, state);
+    if (number == 1)
+      return std::make_unique<SettlingPhase>(parameters.settling, state);
+    const auto flow_case = static_cast<unsigned int>(number - first_flow_phase + 1);
+    return std::make_unique<FlowCase>(
+      flow_case, parameters.sweep.cases()[flow_case - 1], state, series, files);
+  }
+
+  void
+  Simulation::run_phase(Phase &phase)
+  {
+    if (checkpoint && !checkpoint->first.phase.empty())
+      phase.resume(checkpoint->first.phase);
+    else
+      phase.begin();
+    checkpoint.reset();
+    phase_now = &phase;
+    for (bool goes_on = true;;)
+      {
+        step_or_fail(phase, goes_on);
+        if (!goes_on)
+          break;
+        observe(phase);
+        save_if_due();
+      }
+    phase_now = nullptr;
+    phase.end();
+    ++phase_number;
+    if (phase_number == first_flow_phase)
+      present_bed();
+    save();
+  }
+
+  void
+  Simulation::step_or_fail(Phase &phase, bool &goes_on)
+  {
+    try
+      {
+        goes_on = phase.step();
+      }
+    catch (const SolverFailure &error)
+      {
+        save();
+        throw SolverFailure(
+          std::string(error.what()) + " The state before it is in " +
+          files.path("checkpoint") +
+          ": go on from there with --resume and other values, such as --set \"Flow/time "
+          "step=...\".");
+      }
+  }
+
+  void
+  Simulation::observe(Phase &phase)
+  {
+    const bool is_flow = phase.flow_case() > 0;
+    if (!is_flow && state.time < next_observation)
+      return;
+    next_observation = state.time + packing_observation;
+    MonitorRow row{state.time, phase.kind(), phase.flow_case(), {}};
+    {
+      const CostSheet::Scope timing(summary.costs, CostSheet::output);
+      row.values = Values(monitors(), phase.moment());
+      files.add_monitor(row);
+      files.add_wall_forces(wall_forces_header(state), wall_forces_row(state));
+      if (state.fluid && probes.are_wanted())
+        files.add_probes(probes.header(), probes.row(state));
+    }
+    phase.note(row);
+    if (is_flow)
+      write_fields_if_due();
+  }
+
+  void
+  Simulation::present_bed()
+  {
+    state.dem.synchronise();
+    const auto bed = state.bed();
+    BedResult &rest = state.rest;
+    rest.particle_count           = state.dem.n_global();
+    rest.particle_diameter        = state.parameters.simulated_diameter();
+    rest.original_diameter        = state.dem.original_sauter_diameter();
+    rest.scale                    = state.parameters.dem.particles.scale;
+    rest.solid_volume             = state.dem.solid_volume();
+    rest.mean_coordination_number = state.dem.coordination_number();
+    rest.vessel_diameter          = state.parameters.cylinder.diameter;
+    rest.vessel_height            = state.parameters.cylinder.height;
+    if (bed.exists())
+      {
+        rest.bottom             = bed.bottom;
+        rest.height             = bed.height();
+        rest.mean_void_fraction = bed.mean_void_fraction;
+      }
+    state.progress.say(describe_bed(rest, state.dem));
+    if (state.parameters.sweep.has_fluid())
+      rest.original_solid_ratio = original_solid_ratio(
+        state.parameters, bed, state.progress, summary.costs, state.communicator);
+    const CostSheet::Scope timing(summary.costs, CostSheet::output);
+    const DemState         particles = state.dem.state();
+    if (mpi::this_mpi_process(state.communicator) == 0)
+      write_bed(files.path("bed.bin"), state.parameters, particles);
+    files.add_particles(state.time, state.dem);
+    if (bed.exists())
+      files.write_bed(
+        bed_profiles(state.dem, bed.height(), state.parameters.simulated_diameter()));
+    if (state.parameters.output.force_chains)
+      files.add_contacts(state.time, state.dem);
+  }
+
+  void
+  Simulation::write_fields_if_due()
+  {
+    if (state.parameters.output.interval <= 0. || state.time < next_output)
+      return;
+    const CostSheet::Scope timing(summary.costs, CostSheet::output);
+    if (state.fluid)
+      files.add_fields(state.time, *state.fluid);
+    files.add_particles(state.time, state.dem);
+    next_output = state.time + state.parameters.output.interval;
+  }
+
+  void
+  Simulation::write_summary_file()
+  {
+    summary.bed          = state.rest;
+    summary.cases        = series.results;
+    summary.ledger       = state.ledger;
+    summary.wall_seconds = Progress::steady_seconds() - started;
+    summary.cpu_seconds  = state.cpu_seconds();
+    summary.cells        = state.mesh.triangulation().n_global_active_cells();
+    summary.volume       = state.mesh.volume();
+    write_summary(files.path("summary.json"), summary, state.communicator);
+  }
+
+  RunState
+  Simulation::run_state() const
+  {
+    RunState saved;
+    saved.parameters           = state.parameters.texts;
+    saved.time                 = state.time;
+    saved.next_output          = next_output;
+    saved.next_adaption        = state.next_adaption;
+    saved.rest                 = state.rest;
+    saved.cases                = series.results;
+    saved.last_velocity        = series.last_velocity;
+    saved.has_begun            = series.has_begun;
+    for (const Feed &feed : series.feeds)
+      saved.feeds.push_back(to_bytes(feed.state()));
+    saved.ledger               = state.ledger;
+    saved.costs                = summary.costs;
+    saved.wall_seconds         = Progress::steady_seconds() - started;
+    saved.cpu_seconds          = mpi::sum(state.cpu_seconds(), state.communicator);
+    saved.costs.particle_steps = mpi::sum(summary.costs.particle_steps, state.communicator);
+    saved.costs.contact_steps  = mpi::sum(summary.costs.contact_steps, state.communicator);
+    saved.written              = files.written();
+    saved.has_fluid            = state.fluid.has_value();
+    if (state.fluid)
+      saved.fluid = state.fluid->history();
+    saved.phase_number = phase_number;
+    if (phase_now != nullptr)
+      saved.phase = phase_now->save();
+    if (phase_number >= first_flow_phase && phase_number < n_phases())
+      saved.velocity = state.parameters.sweep.cases()[phase_number - first_flow_phase];
+    return saved;
+  }
+
+  void
+  Simulation::save()
+  {
+    const CostSheet::Scope timing(summary.costs, CostSheet::output);
+    write_checkpoint(
+      files.path("checkpoint"),
+      run_state(),
+      state.dem.state(),
+      [&](const std::string &file) {
+        if (state.fluid)
+          state.fluid->save(file);
+      },
+      state.communicator);
+    next_save =
+      Progress::steady_seconds() + 60. * state.parameters.output.checkpoint_interval;
+  }
+
+  void
+  Simulation::save_if_due()
+  {
+    const double minutes = state.parameters.output.checkpoint_interval;
+    if (next_save == 0.)
+      next_save = started + 60. * minutes;
+    const bool due = minutes > 0. && Progress::steady_seconds() >= next_save;
+    // One clock for all ranks.
+    if (mpi::broadcast(state.communicator, due, 0))
+      save();
+  }
+
+  void
+  Simulation::go_on_from(const RunState &saved)
+  {
+    if (saved.has_fluid)
+      state.mesh.load(checkpoint_fields(files.path("checkpoint")));
+    state.dem.restore(checkpoint->second);
+
+    state.time           = saved.time;
+    next_output          = saved.next_output;
+    state.next_adaption  = saved.next_adaption;
+    state.rest           = saved.rest;
+    series.results       = saved.cases;
+    series.last_velocity = saved.last_velocity;
+    series.has_begun     = saved.has_begun;
+    for (std::size_t n = 0; n < series.feeds.size() && n < saved.feeds.size(); ++n)
+      series.feeds[n].restore(from_bytes<Feed::State>(saved.feeds[n]));
+    state.ledger = saved.ledger;
+    phase_number = saved.phase_number;
+    if (mpi::this_mpi_process(state.communicator) == 0)
+      {
+        summary.costs    = saved.costs;
+        state.cpu_before = saved.cpu_seconds;
+      }
+    summary.costs.fluid_steps = saved.costs.fluid_steps;
+    started -= saved.wall_seconds;
+    files.continue_from(saved.written, state.time);
+    next_save =
+      Progress::steady_seconds() + 60. * state.parameters.output.checkpoint_interval;
+    if (saved.has_fluid)
+      {
+        state.make_fluid();
+        state.fluid->load(saved.fluid);
+      }
+    std::ostringstream text;
+    text << "resumed at " << state.time << " s, " << state.dem.n_global()
+         << " particles, " << series.results.size() << " flow case(s) done";
+    state.progress.say(text.str());
+    for (const std::string &change : changed_parameters)
+      state.progress.say("changed: " + change);
+  }
+} // namespace graupel

@@ -1,0 +1,36 @@
+#include <graupel/simulation/strategies/steady_flow.h>
+
+namespace graupel
+{
+  double
+  FlowFrame::velocity_at(const double time_in_case) const
+  {
+    const double ramp = state.parameters.sweep.ramp_time;
+    const double part = ramp > 0. ? std::min(1., time_in_case / ramp) : 1.;
+    return ramp_from + part * (velocity.value_or(0.) - ramp_from);
+  }
+
+  void
+  FlowFrame::move_particles(const double duration)
+  {
+    state.dem.advance(duration);
+    state.time += duration;
+    if (state.fluid)
+      state.ledger.record(state.last_step.mass_imbalance,
+                          state.fluid->exchange().momentum_imbalance(),
+                          state.fluid->exchange().solid_volume_error());
+  }
+
+  std::unique_ptr<FlowStrategy>
+  make_strategy(FlowFrame &frame)
+  {
+    const std::string &mode = frame.state.parameters.sweep.mode;
+    if (mode == "steady")
+      return std::make_unique<SteadyFlow>(frame, false);
+    if (mode == "automatic")
+      return std::make_unique<AutomaticFlow>(frame);
+    if (mode == "particles alone")
+      return std::make_unique<ParticlesAlone>(frame);
+    return std::make_unique<MovingFlow>(frame);
+  }
+} // namespace graupel
