@@ -188,6 +188,27 @@ namespace graupel
   }
 
   double
+  CoupledFlow::cross_section(const double z) const
+  {
+    // That of the discrete cylinder, so that what enters through it has its velocity.
+    return parameters.mesh.file.empty() ? solver->boundary_area(VesselMesh::bottom) :
+                                          dem.space().fluid_cross_section(z);
+  }
+
+  double
+  CoupledFlow::flow_force_against_gravity() const
+  {
+    return -(exchange().total_force() * parameters.dem.particles.gravity_direction);
+  }
+
+  double
+  CoupledFlow::buoyancy() const
+  {
+    return parameters.fluid.density * parameters.dem.particles.gravity *
+           dem.solid_volume();
+  }
+
+  double
   CoupledFlow::pressure_drop() const
   {
     return solver->mean_pressure(VesselMesh::bottom) -

@@ -1,3 +1,4 @@
+#include <graupel/base/parameters.h>
 #include <graupel/dem/bed/bed_profiles.h>
 #include <graupel/simulation/observers/wall_forces.h>
 #include <graupel/simulation/original_bed.h>

@@ -1,5 +1,5 @@
 #include <graupel/base/parameters.h>
-#include <graupel/simulation/packed_bed.h>
+#include <graupel/simulation/simulation.h>
 
 #include <gtest/gtest.h>
 
@@ -21,6 +21,7 @@ namespace
     file.read(GRAUPEL_SOURCE_DIR "/prm/packed-bed/short.prm");
     for (const std::string &assignment : overrides)
       file.set(assignment);
+    parameters.texts = file.texts();
     parameters.check();
     const auto directory =
       std::filesystem::temp_directory_path() / "graupel-test-adaptive-run";
@@ -28,9 +29,10 @@ namespace
     {
       ResultFiles files(directory.string(), MPI_COMM_WORLD);
       Progress    silent;
-      PackedBed   bed(parameters, "short.prm", files, silent, MPI_COMM_WORLD);
-      bed.run();
-      summary = bed.result();
+      Simulation  simulation(parameters, "short.prm", files, silent, MPI_COMM_WORLD);
+      files.begin(prm);
+      simulation.run();
+      summary = simulation.result();
     }
     MPI_Barrier(MPI_COMM_WORLD);
     if (dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0)
@@ -58,7 +60,7 @@ TEST(AdaptiveRun, LosesNothingAndGivesThePressureDropOfTheFineMesh)
                                  "Mesh adaption/surface threshold=0.1",
                                  "Mesh adaption/at the wall=true"});
   const auto    error    = [&](const Summary &run) {
-    return run.cases[0].pressure_drop / fine.cases[0].pressure_drop - 1.;
+    return *run.cases[0]["pressure_drop"] / *fine.cases[0]["pressure_drop"] - 1.;
   };
   if (dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0)
     std::cout << "cells " << coarse.cells << ", " << adaptive.cells << ", " << fine.cells

@@ -67,6 +67,14 @@ namespace graupel
     /** Pressure at the bottom minus pressure at the top [Pa]. */
     double pressure_drop() const;
 
+    /** Area of the fluid's section at the height @p z [m^2]. Collective. */
+    double cross_section(const double z) const;
+
+    /** Force of the fluid on all particles against gravity, without buoyancy [N]. */
+    double flow_force_against_gravity() const;
+    /** Buoyancy of all particles [N]. */
+    double buoyancy() const;
+
     const NodalSpace &
     nodes() const
     {

@@ -2,7 +2,7 @@
 #define graupel_simulation_study_runs_h
 
 #include <graupel/simulation/study.h>
-#include <graupel/simulation/summary.h>
+#include <graupel/simulation/files/summary.h>
 
 namespace graupel
 {

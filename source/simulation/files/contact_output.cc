@@ -1,4 +1,4 @@
-#include <graupel/simulation/contact_output.h>
+#include <graupel/simulation/files/contact_output.h>
 
 #include <array>
 

@@ -1,5 +1,5 @@
 #include <graupel/dem/bed/bed_profiles.h>
-#include <graupel/simulation/particle_output.h>
+#include <graupel/simulation/files/particle_output.h>
 
 namespace graupel
 {

@@ -112,6 +112,16 @@ namespace graupel
       };
     }
 
+    // A number of the case's course.
+    template <typename Number>
+    std::function<Value(const CaseView &)>
+    of_course(Number CaseCourse::*member)
+    {
+      return [member](const CaseView &flow) -> Value {
+        return static_cast<double>(flow.course.*member);
+      };
+    }
+
     Value
     superficial_velocity(const CaseView &flow)
     {
@@ -126,7 +136,7 @@ namespace graupel
 
     // Over the bed, with what flows through each slice of it.
     Value
-    ergun_pressure_drop(const CaseView &flow)
+    ergun_drop(const CaseView &flow)
     {
       const auto bed = flow.whole_bed();
       if (!flow.end.state.fluid || !bed)
@@ -150,7 +160,7 @@ namespace graupel
     Value
     deviation_from_ergun(const CaseView &flow)
     {
-      return relative_deviation(flow.mean("pressure_drop"), ergun_pressure_drop(flow));
+      return relative_deviation(flow.mean("pressure_drop"), ergun_drop(flow));
     }
 
     double
@@ -199,7 +209,7 @@ namespace graupel
       if (!state.fluid || !support || state.dem.n_global() == 0)
         return {};
       const double net_weight =
-        state.dem.weight() - state.fluid->buoyancy_against_gravity();
+        state.dem.weight() - state.fluid->buoyancy();
       return *support <= lifted_load * net_weight ? 1. : 0.;
     }
   } // namespace
@@ -207,11 +217,6 @@ namespace graupel
   const std::vector<Quantity<CaseView>> &
   case_quantities()
   {
-    const auto of_course = [](auto member) {
-      return [member](const CaseView &flow) -> Value {
-        return static_cast<double>(flow.course.*member);
-      };
-    };
     static const std::vector<Quantity<CaseView>> table{
       {"superficial_velocity",
        "m/s",
@@ -230,7 +235,7 @@ namespace graupel
        mean_of("pressure_drop"),
        "pressure drop",
        "Pa"},
-      {"ergun_pressure_drop", "Pa", "Ergun's value", ergun_pressure_drop, "Ergun", "Pa"},
+      {"ergun_pressure_drop", "Pa", "Ergun's value", ergun_drop, "Ergun", "Pa"},
       {"deviation_from_ergun",
        "-",
        "deviation from Ergun",

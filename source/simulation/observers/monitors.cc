@@ -105,7 +105,7 @@ namespace graupel
     {
       if (!now.state.fluid)
         return {};
-      return now.state.fluid->force_against_gravity();
+      return now.state.fluid->flow_force_against_gravity() + now.state.fluid->buoyancy();
     }
 
     Value

@@ -62,13 +62,13 @@ namespace graupel
   SteadyFlow::find()
   {
     SimulationState &state        = frame.state;
-    double           force_before = state.fluid->drag_force_against_gravity();
+    double           force_before = state.fluid->flow_force_against_gravity();
     state.fluid->set_superficial_velocity(frame.velocity.value_or(0.));
     for (unsigned int look = 0; look < most_looks; ++look)
       {
         if (!find_flow())
           return false;
-        const double force = state.fluid->drag_force_against_gravity();
+        const double force = state.fluid->flow_force_against_gravity();
         if (must_rest && force > most_carried * state.dem.weight())
           return false;
         const double shift = std::abs(hold_particles(force_before));
@@ -96,7 +96,7 @@ namespace graupel
     };
     const double height = top();
     const auto   change = [&]() { return height > 0. ? top() / height - 1. : 0.; };
-    const double force  = state.fluid->drag_force_against_gravity();
+    const double force  = state.fluid->flow_force_against_gravity();
     const double before = std::clamp(force > 0. ? force_before / force : 0., 0., 1.);
     const double ramp   = sweep.ramp_time;
     const double end    = ramp + sweep.steady_window;

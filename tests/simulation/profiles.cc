@@ -1,62 +1,8 @@
-#include <graupel/simulation/case_result.h>
 #include <graupel/simulation/profiles.h>
 
 #include <gtest/gtest.h>
 
 using namespace graupel;
-
-namespace
-{
-  MonitorRow
-  row_at(const double time, const double pressure_drop)
-  {
-    MonitorRow row;
-    row.time          = time;
-    row.pressure_drop = pressure_drop;
-    row.bed_height    = 0.15;
-    row.bottom_force  = 1.;
-    return row;
-  }
-} // namespace
-
-TEST(SteadyMonitor, WaitsForAWholeWindow)
-{
-  SteadyMonitor monitor(0.1, 1e-3, 1.);
-  for (int n = 0; n < 10; ++n)
-    {
-      monitor.record(row_at(0.01 * n, 100.));
-      EXPECT_FALSE(monitor.is_steady()) << "after " << n + 1 << " rows";
-    }
-  monitor.record(row_at(0.1, 100.));
-  EXPECT_TRUE(monitor.is_steady());
-}
-
-TEST(SteadyMonitor, SeesAChangeAnywhereInTheWindow)
-{
-  SteadyMonitor monitor(0.1, 1e-3, 1.);
-  for (int n = 0; n <= 60; ++n)
-    {
-      // A step of 1 % at t = 0.3 s: not steady until the window has passed it.
-      monitor.record(row_at(0.01 * n, n < 30 ? 100. : 101.));
-      if (n >= 30 && n < 39)
-        {
-          EXPECT_FALSE(monitor.is_steady()) << n;
-        }
-      else if (n > 40)
-        {
-          EXPECT_TRUE(monitor.is_steady()) << n;
-        }
-    }
-}
-
-TEST(MeanSince, AveragesTheLastRowsOnly)
-{
-  std::vector<MonitorRow> rows;
-  for (int n = 1; n <= 4; ++n)
-    rows.push_back(row_at(n, 10. * n));
-  EXPECT_DOUBLE_EQ(mean_since(rows, 2.5).pressure_drop, 35.);
-  EXPECT_THROW(mean_since(rows, 5.), std::invalid_argument);
-}
 
 TEST(Profiles, AverageLinearFieldsExactly)
 {

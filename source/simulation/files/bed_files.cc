@@ -1,5 +1,5 @@
 #include <graupel/closures/bed_correlations.h>
-#include <graupel/simulation/result_files.h>
+#include <graupel/simulation/files/result_files.h>
 
 namespace graupel
 {
