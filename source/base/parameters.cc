@@ -50,6 +50,36 @@ namespace graupel
       return {sections, path.substr(begin)};
     }
 
+    // A path as seen from the file that names it ("FILE:LINE").
+    std::string
+    absolute_path(const std::string &path, const std::string &origin)
+    {
+      const auto                  colon = origin.rfind(':');
+      const std::filesystem::path folder =
+        colon == std::string::npos
+          ? ""
+          : std::filesystem::path(origin.substr(0, colon)).parent_path();
+      return std::filesystem::absolute(folder / path).lexically_normal().string();
+    }
+
+    // The same for a list of "NAME: PATH"; a path without a name gets itself for one.
+    std::string
+    absolute_paths(const std::string &list, const std::string &origin)
+    {
+      std::string        result;
+      std::istringstream entries(list);
+      for (std::string entry; std::getline(entries, entry, ',');)
+        {
+          const auto colon = entry.find(':');
+          const auto name  = trimmed(entry.substr(0, colon));
+          const auto path =
+            colon == std::string::npos ? name : trimmed(entry.substr(colon + 1));
+          result +=
+            (result.empty() ? "" : ", ") + name + ": " + absolute_path(path, origin);
+        }
+      return result;
+    }
+
     // Joins continued lines and drops the comment; false at the end of the text.
     bool
     next_statement(std::istream &stream,
@@ -324,14 +354,9 @@ namespace graupel
     // A path is meant relative to the file that names it ("FILE:LINE").
     std::string fitted = value;
     if (pattern.rfind("[FileName", 0) == 0 && !value.empty())
-      {
-        const auto                  colon = origin.rfind(':');
-        const std::filesystem::path folder =
-          colon == std::string::npos
-            ? ""
-            : std::filesystem::path(origin.substr(0, colon)).parent_path();
-        fitted = std::filesystem::absolute(folder / value).lexically_normal().string();
-      }
+      fitted = absolute_path(value, origin);
+    if (pattern.rfind("[List of <[FileName", 0) == 0)
+      fitted = absolute_paths(value, origin);
 
     // deal.II would take a negative number for an unsigned one, modulo 2^32.
     bool fits = !(pattern == "[Integer]" && value.find('-') != std::string::npos);

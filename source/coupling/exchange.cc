@@ -256,10 +256,10 @@ namespace graupel
   }
 
   std::vector<dealii::Tensor<1, 3>>
-  Exchange::forces(const ParticleArrays &particles,
-                   const FlowSolver     &flow,
-                   const double          density,
-                   const double          gravity)
+  Exchange::forces(const ParticleArrays       &particles,
+                   const FlowSolver           &flow,
+                   const double                density,
+                   const dealii::Tensor<1, 3> &gravity)
   {
     const CostSheet::Scope timing(costs, CostSheet::exchange);
     const NodalVectorField pressure_gradient = flow.pressure_gradient();
@@ -287,7 +287,7 @@ namespace graupel
       }
     fluid_force = dealii::Utilities::MPI::sum(fluid_force, nodes.mesh.communicator());
     for (unsigned int row = 0; row < particles.n_owned; ++row)
-      force[row][2] += volume[row] * density * gravity;
+      force[row] -= (volume[row] * density) * gravity;
     keep_ledger(flow, pressure_gradient);
     return force;
   }

@@ -1,9 +1,11 @@
+#include <graupel/base/parameters.h>
 #include <graupel/dem/dem.h>
 #include <graupel/dem/numbers/exact_sum.h>
 #include <graupel/dem/particles/dem_error.h>
 
 #include <limits>
 #include <numeric>
+#include <sstream>
 
 namespace graupel
 {
@@ -67,7 +69,7 @@ namespace graupel
     , near_skin(std::min(0.5 * skin, relative_near_skin * input.largest_radius()))
     , walls(input.walls.walls(mesh.cylinder()))
     , materials(input.materials(false, walls))
-    , gravity({0., 0., -input.particles.gravity})
+    , gravity(input.gravity())
     , particle_store(mesh)
     , halo(mesh.cylinder(),
            2. * input.largest_radius() + skin,
@@ -286,8 +288,13 @@ namespace graupel
 
     external_forces = has_external_forces();
     contacts.reset_wall_loads();
+    const Clock begin = time;
     for (unsigned int s = 0; s < n; ++s)
-      substep_by(dt, s == 0);
+      {
+        substep_by(dt, s == 0);
+        if (begin)
+          time = *begin + (s + 1 == n ? duration : (s + 1) * dt);
+      }
     if (n > 0)
       {
         CostSheet::Scope scope(costs, CostSheet::contact);
@@ -296,7 +303,10 @@ namespace graupel
 
     wall_loads = contacts.wall_loads(communicator());
     for (auto &load : wall_loads)
-      load /= std::max(1u, n);
+      {
+        load.force /= std::max(1u, n);
+        load.torque /= std::max(1u, n);
+      }
     if (input.walls.is_open())
       remove_departed();
     // A failure in the last substep was not yet told to the other ranks.
@@ -328,28 +338,91 @@ namespace graupel
         speed_square = first ? drift(arrays, integration(dt))
                              : kick_and_drift(arrays, integration(dt));
       }
-    double wall_speed = 0.;
-    for (auto &wall : walls)
-      {
-        wall.move(dt);
-        wall_speed = std::max(wall_speed, wall.velocity().norm());
-      }
     {
       CostSheet::Scope scope(costs, CostSheet::halo);
       speed_square = mpi::max(speed_square, communicator());
     }
     if (speed_square == infinity)
       throw_together(first_problem(), communicator());
-    walls_moved_since_list += dt * wall_speed;
-    const double moved = dt * (std::sqrt(speed_square) + wall_speed);
+    const double moved = dt * std::sqrt(speed_square);
     moved_since_list += moved;
     moved_since_sort += moved;
 
+    move_walls(dt);
     update_neighbors();
     CostSheet::Scope scope(costs, CostSheet::contact);
     contacts.sweep(arrays, list, walls, materials, dt);
     costs.particle_steps += arrays.n_owned;
     costs.contact_steps += contacts.n_contacts();
+  }
+
+  void
+  Dem::start_clock(const double t)
+  {
+    time = t;
+    open_and_close_gates();
+  }
+
+  void
+  Dem::move_walls(const double dt)
+  {
+    open_and_close_gates();
+    const Cylinder &cylinder = mesh.cylinder();
+    const double    size =
+      std::hypot(0.5 * cylinder.diameter, cylinder.height) + 2. * input.largest_radius();
+    double speed = 0.;
+    for (Wall &wall : walls)
+      if (wall.course.moves())
+        {
+          wall.move(dt, time);
+          const double own = wall.approach_speed(size);
+          if (!std::isfinite(own + wall.velocity().norm_square()))
+            throw DemError("the wall \"" + wall.name +
+                           "\" has no finite velocity at t = " + std::to_string(clock()) +
+                           " s (Walls/motion)");
+          speed = std::max(speed, own);
+        }
+    walls_moved_since_list += dt * speed;
+    moved_since_list += dt * speed;
+  }
+
+  void
+  Dem::open_and_close_gates()
+  {
+    std::string problem;
+    bool        some_wall_comes = false;
+    for (unsigned int w = 0; w < walls.size(); ++w)
+      if (walls[w].look_at(time))
+        {
+          // Whoever is near it must be found anew.
+          contacts.leave_wall(w);
+          list.clear();
+          list_is_valid   = false;
+          some_wall_comes = some_wall_comes || walls[w].is_there;
+          if (walls[w].is_there)
+            problem += in_the_way_of(walls[w]);
+        }
+    if (some_wall_comes)
+      throw_together(problem, communicator());
+  }
+
+  std::string
+  Dem::in_the_way_of(const Wall &wall) const
+  {
+    for (unsigned int i = 0; i < arrays.n_owned; ++i)
+      {
+        const Body &body = arrays.body[i];
+        if (!wall.is_admissible(body.position,
+                                (1. - ContactSweep::largest_overlap) * body.radius))
+          {
+            std::ostringstream text;
+            text << "particle " << arrays.id[i] << " at (" << body.position
+                 << ") m is in the way of the wall \"" << wall.name
+                 << "\", which comes at t = " << clock() << " s (Walls/gates). ";
+            return text.str();
+          }
+      }
+    return {};
   }
 
   void
@@ -433,6 +506,24 @@ namespace graupel
   Dem::solid_volume() const
   {
     return total_volume;
+  }
+
+  unsigned int
+  Dem::wall_number(const std::string &name) const
+  {
+    const auto wall = std::find_if(
+      walls.begin(), walls.end(), [&](const Wall &w) { return w.name == name; });
+    require(wall != walls.end(), "", "the vessel has no wall \"" + name + "\"");
+    return wall - walls.begin();
+  }
+
+  double
+  Dem::supported_weight() const
+  {
+    double sum = 0.;
+    for (unsigned int w = 0; w < walls.size(); ++w)
+      sum += along_gravity(w);
+    return sum;
   }
 
   double

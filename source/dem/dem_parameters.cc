@@ -1,8 +1,11 @@
 #include <graupel/base/parameters.h>
+#include <graupel/base/read_numbers.h>
 #include <graupel/dem/dem_parameters.h>
 #include <graupel/dem/particles/particle_arrays.h>
 
 #include <deal.II/base/utilities.h>
+
+#include <boost/algorithm/string/join.hpp>
 
 #include <limits>
 #include <set>
@@ -76,8 +79,14 @@ namespace graupel
       "Diameter of a simulated particle over that of an original one; each "
       "simulated particle stands for scale^3 original ones [-].");
     prm.add_parameter("density", density, "Density of the solid [kg/m^3].");
-    prm.add_parameter(
-      "gravity", gravity, "Acceleration of gravity, downwards along the axis [m/s^2].");
+    std::ostringstream size;
+    size << gravity;
+    prm.declare_entry("gravity",
+                      size.str(),
+                      dealii::Patterns::List(dealii::Patterns::Double(), 1, 3),
+                      "Acceleration of gravity: one number for its size, downwards along "
+                      "the axis, or the three components of a vector [m/s^2].");
+    prm.add_action("gravity", [this](const std::string &text) { set_gravity(text); });
     sizes.declare(prm);
     for (unsigned int t = 0; t < further_types.size(); ++t)
       {
@@ -86,6 +95,24 @@ namespace graupel
         prm.leave_subsection();
       }
     prm.leave_subsection();
+  }
+
+  void
+  ParticleParameters::set_gravity(const std::string &text)
+  {
+    const auto numbers =
+      dealii::Utilities::string_to_double(dealii::Utilities::split_string_list(text));
+    gravity           = numbers[0];
+    gravity_direction = dealii::Tensor<1, 3>({0., 0., -1.});
+    if (numbers.size() == 1)
+      return;
+    // Two numbers are refused by check(), as no size is.
+    dealii::Tensor<1, 3> vector;
+    for (unsigned int d = 0; d < 3; ++d)
+      vector[d] = numbers.size() == 3 ? numbers[d] : std::nan("");
+    gravity = vector.norm();
+    if (gravity != 0.)
+      gravity_direction = vector / gravity;
   }
 
   void
@@ -99,9 +126,11 @@ namespace graupel
             "scaled particles are larger than the original ones: choose 1 or more");
     require(
       density > 0., "Particles/density", "a solid needs a positive density, in kg/m^3");
-    require(gravity >= 0.,
-            "Particles/gravity",
-            "gravity points downwards already; its size cannot be negative");
+    require(
+      gravity >= 0.,
+      "Particles/gravity",
+      "gravity is one number that is not negative, its size, as it points downwards "
+      "already; or a vector of three numbers, as in \"0, 0, -9.81\"");
     sizes.check(diameter, "Particles");
     double others = 0.;
     for (unsigned int t = 0; t < further_types.size(); ++t)
@@ -205,7 +234,8 @@ namespace graupel
       "pairs",
       pairs,
       "Pairs that differ from the above, separated by commas: two types, or a type and a "
-      "wall (wall, bottom, top, plane 1, ...), then a quantity (restitution, friction, "
+      "wall (wall, bottom, top, plane 1, a name of Walls/planes or surfaces), then a "
+      "quantity (restitution, friction, "
       "rolling resistance, adhesion) and its value, as in \"1-2 friction 0.3, 2-bottom "
       "restitution 0.9\"; they hold while packing too [-, J/m^2].");
     prm.add_parameter(
@@ -292,8 +322,8 @@ namespace graupel
   {
     particles.check(cylinder);
     contact.check();
-    check_pairs();
     walls.check();
+    check_pairs();
     require(!walls.is_periodic() || cylinder.height > 6. * largest_radius(),
             "Walls/top",
             "a periodic vessel must be higher than three particles, or one would touch "
@@ -430,16 +460,18 @@ namespace graupel
           const auto at = text.find(" " + quantity + " ");
           if (at == std::string::npos)
             continue;
+          // A type has no dash in its name, but a wall may.
           const auto bodies = text.substr(0, at);
-          const auto dash   = bodies.find('-');
-          require(dash != std::string::npos, "Contact/pairs", advice);
-          entry.first    = dealii::Utilities::trim(bodies.substr(0, dash));
-          entry.second   = dealii::Utilities::trim(bodies.substr(dash + 1));
-          entry.quantity = quantity;
-          std::istringstream number(text.substr(at + quantity.size() + 2));
-          require(static_cast<bool>(number >> entry.value) && (number >> std::ws).eof(),
-                  "Contact/pairs",
-                  advice);
+          const auto first = bodies.find('-'), last = bodies.rfind('-');
+          require(first != std::string::npos, "Contact/pairs", advice);
+          const bool wall_leads = !number_in(bodies.substr(0, first)).has_value();
+          const auto dash       = wall_leads ? last : first;
+          entry.first           = dealii::Utilities::trim(bodies.substr(0, dash));
+          entry.second          = dealii::Utilities::trim(bodies.substr(dash + 1));
+          entry.quantity        = quantity;
+          const auto value      = number_in(text.substr(at + quantity.size() + 2));
+          require(value.has_value(), "Contact/pairs", advice);
+          entry.value = *value;
           return entry;
         }
       require(false, "Contact/pairs", advice);
@@ -450,19 +482,24 @@ namespace graupel
   void
   DemParameters::check_pairs() const
   {
-    std::set<std::string> bodies{"wall", "bottom", "top"};
     const auto            n_types = types().size();
+    std::set<std::string> all_types;
     for (std::size_t type = 1; type <= n_types; ++type)
-      bodies.insert(std::to_string(type));
+      all_types.insert(std::to_string(type));
+    const auto        walls_here = walls.names();
+    const std::string known      = boost::algorithm::join(walls_here, ", ");
     for (const auto &text : dealii::Utilities::split_string_list(contact.pairs))
       {
         const auto entry = read_pair(text);
         for (const auto &body : {entry.first, entry.second})
-          require(bodies.count(body) > 0 || body.rfind("plane ", 0) == 0 ||
-                    walls.surfaces.find(body) != std::string::npos,
+          require(all_types.count(body) > 0 ||
+                    std::count(walls_here.begin(), walls_here.end(), body) > 0,
                   "Contact/pairs",
                   "\"" + body + "\" is neither a type from 1 to " +
-                    std::to_string(n_types) + " nor a wall");
+                    std::to_string(n_types) + " nor a wall of this vessel: " + known);
+        require(all_types.count(entry.first) + all_types.count(entry.second) > 0,
+                "Contact/pairs",
+                "\"" + text + "\" names two walls, which do not touch");
         Surface surface = contact.particle_surface;
         override_surface(entry.first + "-" + entry.second, surface);
         check_surface(surface, "pair " + entry.first + "-" + entry.second);

@@ -156,12 +156,9 @@ namespace graupel
   CoupledFlow::flow_past_bed(const double step)
   {
     particles_and_fluid->update_drag(dem.particles());
-    const auto report = solver->step(particles_and_fluid->medium(), step);
-    dem.particles().external_force =
-      particles_and_fluid->forces(dem.particles(),
-                                  *solver,
-                                  parameters.fluid.density,
-                                  parameters.dem.particles.gravity);
+    const auto report              = solver->step(particles_and_fluid->medium(), step);
+    dem.particles().external_force = particles_and_fluid->forces(
+      dem.particles(), *solver, parameters.fluid.density, parameters.dem.gravity());
     return report;
   }
 

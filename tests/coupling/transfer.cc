@@ -264,7 +264,10 @@ namespace
         exchange.update_bed(packing.dem.store(), packing.dem.particles());
         exchange.update_drag(packing.dem.particles());
         flow.step(exchange.medium(), 1e-2);
-        exchange.forces(packing.dem.particles(), flow, fluid.density, 9.81);
+        exchange.forces(packing.dem.particles(),
+                        flow,
+                        fluid.density,
+                        dealii::Tensor<1, 3>({0., 0., -9.81}));
         EXPECT_LE(exchange.solid_volume_error(), 1e-12);
         EXPECT_LE(exchange.momentum_imbalance(), 1e-10);
       }

@@ -70,7 +70,7 @@ namespace graupel
    * round-off.
    *
    *   alpha = 1 - S M^-1 W^T V,  B = S M^-1 W^T beta,  C = S M^-1 W^T (beta v)
-   *   F_p = beta_p ((W S u)_p - v_p) - V_p (W S grad p)_p + V_p rho g
+   *   F_p = beta_p ((W S u)_p - v_p) - V_p (W S grad p)_p - V_p rho g
    *
    * The last term is buoyancy, as p is the pressure without its hydrostatic part.
    * That is model A. In model B beta is divided by the void fraction at the particle
@@ -137,10 +137,10 @@ namespace graupel
      * through medium(); buoyancy under @p gravity [m/s^2] in a fluid of
      * @p density [kg/m^3] included. Records the momentum_imbalance().
      */
-    std::vector<dealii::Tensor<1, 3>> forces(const ParticleArrays &particles,
-                                             const FlowSolver     &flow,
-                                             const double          density,
-                                             const double          gravity);
+    std::vector<dealii::Tensor<1, 3>> forces(const ParticleArrays       &particles,
+                                             const FlowSolver           &flow,
+                                             const double                density,
+                                             const dealii::Tensor<1, 3> &gravity);
 
     /** |momentum that the fluid lost - what the particles got| over the former [-]. */
     double

@@ -76,9 +76,10 @@ namespace graupel
 
     /**
      * Goes on from @p state instead of what is here; the mesh may have changed since
-     * construction. The masses are those of these parameters. Throws DemError for
-     * particles that these parameters do not have. Collective. The motion goes on as it
-     * would have, bit by bit.
+     * construction. The masses are those of these parameters. A wall goes on from where
+     * one of the same name and shape was; contacts with walls that are no more, or have
+     * another shape, end. Throws DemError for particles that these parameters do not
+     * have. Collective. The motion goes on as it would have, bit by bit.
      */
     void restore(const DemState &state);
 
@@ -87,6 +88,21 @@ namespace graupel
 
     /** Sets the friction between particles and that with walls [-]; springs stay. */
     void set_friction(const double particles, const double walls);
+
+    /**
+     * Lets the clock of walls that move and gates that open run from @p t on [s], the
+     * time of the flow; it goes on with advance(), and may be set again. Before it runs
+     * they stand still. Throws DemError where a wall comes and a particle is in its way.
+     * Collective.
+     */
+    void start_clock(const double t);
+
+    /** What the clock shows [s]; 0 before it runs. */
+    double
+    clock() const
+    {
+      return time.value_or(0.);
+    }
 
     /** Sets the acceleration of gravity [m/s^2]. */
     void
@@ -222,7 +238,7 @@ namespace graupel
     double
     bottom_force() const
     {
-      return -wall_loads[bottom_wall][2];
+      return along_gravity(bottom_wall);
     }
 
     /** Load carried by the lateral wall, along gravity, mean of the last advance() [N].
@@ -230,15 +246,38 @@ namespace graupel
     double
     wall_force() const
     {
-      return -wall_loads[lateral_wall][2];
+      return along_gravity(lateral_wall);
     }
+
+    /** Load carried by all walls, along gravity, mean of the last advance() [N]. */
+    double supported_weight() const;
 
     /** Force on the wall of this number, mean of the last advance() [N]. */
     const dealii::Tensor<1, 3> &
     force_on(const unsigned int wall) const
     {
-      return wall_loads[wall];
+      return wall_loads[wall].force;
     }
+
+    /** Force on the wall of this name. Throws InputError if there is none. */
+    const dealii::Tensor<1, 3> &
+    force_on(const std::string &wall) const
+    {
+      return force_on(wall_number(wall));
+    }
+
+    /**
+     * Torque on the wall of this number, about the axis that it turns about or that of
+     * the vessel, mean of the last advance() [N m].
+     */
+    double
+    torque_on(const unsigned int wall) const
+    {
+      return wall_loads[wall].torque;
+    }
+
+    /** Place in vessel() of the wall of this name. Throws InputError if there is none. */
+    unsigned int wall_number(const std::string &name) const;
 
     /** Kinetic energy, translation and rotation, mean per particle [J]. Collective. */
     double mean_kinetic_energy() const;
@@ -269,6 +308,17 @@ namespace graupel
     unsigned int               cell_weight(const double cell_share) const;
     void follow(const std::vector<std::int64_t> &old_ids, ParticleStore::Moves moves);
     bool has_external_forces() const;
+    void move_walls(const double dt);
+    void open_and_close_gates();
+    std::string in_the_way_of(const Wall &wall) const;
+    // The number here of each wall of a state; -1 for one whose contacts end.
+    std::vector<std::int64_t> restore_walls(const DemState &state);
+
+    double
+    along_gravity(const unsigned int wall) const
+    {
+      return wall_loads[wall].force * input.particles.gravity_direction;
+    }
 
     const DemParameters  input;
     VesselMesh          &mesh;
@@ -286,7 +336,9 @@ namespace graupel
     VerletList     list;
     ContactSweep   contacts;
 
-    std::vector<dealii::Tensor<1, 3>> wall_loads;
+    // Of the flow, by which walls move.
+    Clock                 time;
+    std::vector<WallLoad> wall_loads;
 
     bool   external_forces = false;
     double total_mass = 0., total_volume = 0.;

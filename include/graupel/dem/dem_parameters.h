@@ -23,8 +23,10 @@ namespace graupel
     double scale = 1.;
     /** Density of the solid [kg/m^3]. */
     double density = 2700.;
-    /** Acceleration of gravity, along -z [m/s^2]. */
+    /** Acceleration of gravity, its size [m/s^2]. */
     double gravity = 9.81;
+    /** Unit vector along gravity. */
+    dealii::Tensor<1, 3> gravity_direction = dealii::Tensor<1, 3>({0., 0., -1.});
     /** Sizes of the first type, which has diameter, scale and density above. */
     SizeDistribution sizes;
     /** Types 2 to 4. */
@@ -43,6 +45,17 @@ namespace graupel
     /** Declares the section "Particles". */
     void declare(dealii::ParameterHandler &prm);
     void check(const Cylinder &cylinder) const;
+
+    /** Whether gravity, if there is any, points down along the axis of the vessel. */
+    bool
+    gravity_is_axial() const
+    {
+      return gravity == 0. || gravity_direction[2] == -1.;
+    }
+
+  private:
+    // One number, or three.
+    void set_gravity(const std::string &text);
   };
 
   /** The laws of contact and their numbers. */
@@ -112,6 +125,13 @@ namespace graupel
     double reference_force() const;
     /** Overlap that a static force makes between two particles [m]. */
     double overlap_under(const double force) const;
+
+    /** Acceleration of gravity [m/s^2]. */
+    dealii::Tensor<1, 3>
+    gravity() const
+    {
+      return particles.gravity * particles.gravity_direction;
+    }
 
     /** The types in use; the first is that of Particles and Contact. */
     std::vector<ParticleType> types() const;

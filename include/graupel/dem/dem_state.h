@@ -4,7 +4,10 @@
 #include <graupel/dem/particles/loose_contact.h>
 #include <graupel/dem/particles/parcel.h>
 
+#include <boost/serialization/string.hpp>
+
 #include <array>
+#include <string>
 #include <vector>
 
 namespace graupel
@@ -28,11 +31,34 @@ namespace graupel
       }
     };
 
+    /** A wall by its name, so that it is found in another vessel. */
+    struct Wall
+    {
+      std::string name;
+      /** Equal where the facets have the same numbers (see Wall::fingerprint()). */
+      std::uint64_t shape = 0;
+      /** Where it has moved to, from where it was built [m], [rad]. */
+      std::array<double, 3> shift = {};
+      double                angle = 0.;
+      /** A point on the axis that it has turned about [m], and its direction. */
+      std::array<double, 6> axis = {};
+
+      template <class Archive>
+      void
+      serialize(Archive &archive, const unsigned int)
+      {
+        archive &name &shape &shift &angle &axis;
+      }
+    };
+
     /** Sorted by id. */
-    std::vector<Particle>     particles;
+    std::vector<Particle> particles;
+    /** Those with walls name them by their place in this list of walls. */
     std::vector<LooseContact> contacts;
-    /** Points of the planes among the walls, which may have moved [m]. */
-    std::vector<std::array<double, 3>> planes;
+    std::vector<Wall>         walls;
+    /** Whether the clock runs, and what it shows [s]. */
+    bool   clock_runs = false;
+    double clock      = 0.;
     /** Particles that have left. */
     unsigned int n_departed = 0;
 
@@ -40,7 +66,7 @@ namespace graupel
     void
     serialize(Archive &archive, const unsigned int)
     {
-      archive &particles &contacts &planes &n_departed;
+      archive &particles &contacts &walls &clock_runs &clock &n_departed;
     }
   };
 } // namespace graupel

@@ -131,8 +131,9 @@ namespace graupel
     for (const auto &contact : contacts)
       largest = std::max(largest, std::abs(contact.force[2]));
     for (unsigned int i = 0; i < particles.n_owned; ++i)
-      largest = std::max(
-        largest, particles.mass[i] * gravity + std::abs(particles.external_force[i][2]));
+      largest = std::max(largest,
+                         particles.mass[i] * std::abs(gravity) +
+                           std::abs(particles.external_force[i][2]));
     const ExactSum zero(mpi::max(largest, communicator));
 
     // Through the planes; and of particles by the number of planes below them.
@@ -254,7 +255,7 @@ namespace graupel
     bed.loads        = load_profile(particles,
                              own,
                              planes_every(diameter / 2., height),
-                             dem.parameters().particles.gravity,
+                             -dem.parameters().gravity()[2],
                              comm);
     bed.coordination = coordination_profile(
       particles, counts, planes_every(diameter, height + diameter), comm);

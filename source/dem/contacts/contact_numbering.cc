@@ -45,6 +45,14 @@ namespace graupel
         list.clear();
   }
 
+  void
+  ContactSweep::leave_wall(const unsigned int wall)
+  {
+    for (unsigned int type = 0; type < n_types; ++type)
+      wall_lists[wall * n_types + type].clear();
+    idle_rows[wall].clear();
+  }
+
   std::vector<LooseContact>
   ContactSweep::renumber(const std::vector<std::int64_t>  &old_ids,
                          const std::vector<std::uint32_t> &new_row)

@@ -74,7 +74,7 @@ namespace graupel
                                                  wall.at(triple(p.body[i].position),
                                                          wall_lists[w].second(k),
                                                          2. * p.body[i].radius),
-                                                 wall.velocity());
+                                                 wall.step);
             auto        springs = wall_lists[w].springs(k);
             const auto  action  = contact_action<NormalLaw, RollingLaw>(
               materials.with_wall(w / n_types, w % n_types), contact, springs);

@@ -8,6 +8,7 @@ namespace graupel
   ContactSweep::sweep_surface(ParticleArrays    &particles,
                               const unsigned int wall,
                               const SurfaceWall &surface,
+                              const Wall        &motion,
                               const Materials   &materials,
                               const double       dt)
   {
@@ -30,7 +31,7 @@ namespace graupel
             while (next < before.size() && before.first(next) < row)
               ++next;
             touches.clear();
-            surface.mesh.touches(body.position, body.radius - release, touches);
+            surface.touches(body.position, body.radius - release, touches);
             for (const auto &touch : touches)
               {
                 std::size_t k = next;
@@ -41,15 +42,8 @@ namespace graupel
                 if (!is_old && touch.distance >= body.radius)
                   continue;
                 Springs<double> springs = is_old ? before.springs(k) : Springs<double>{};
-                sweep_surface_contact<NormalLaw, RollingLaw>(particles,
-                                                             row,
-                                                             touch,
-                                                             wall,
-                                                             surface.velocity,
-                                                             material,
-                                                             dt,
-                                                             !is_old,
-                                                             springs);
+                sweep_surface_contact<NormalLaw, RollingLaw>(
+                  particles, row, touch, wall, motion, material, dt, !is_old, springs);
                 after.add(row, touch.facet, springs);
               }
           }
@@ -62,19 +56,24 @@ namespace graupel
                                       const std::uint32_t       row,
                                       const SurfaceMesh::Touch &touch,
                                       const unsigned int        wall,
-                                      const Triple<double>     &wall_velocity,
+                                      const Wall               &motion,
                                       const PairMaterial       &material,
                                       const double              dt,
                                       const bool                is_fresh,
                                       Springs<double>          &springs)
   {
     const Body     &body    = particles.body[row];
+    const auto     &step    = motion.step;
     Contact<double> contact = contact_of_wall(
-      body, particles.mass[row], {touch.distance, triple(touch.normal)}, wall_velocity);
-    contact.drift = triple(body.drift) - wall_velocity +
+      body, particles.mass[row], {touch.distance, triple(touch.normal)}, {});
+    contact.velocity -= step.end.velocity;
+    contact.drift = triple(body.drift) - step.middle.velocity +
                     touch.distance * cross(triple(body.spin_drift), contact.normal);
     contact.spin_drift = triple(body.spin_drift);
-    contact.step       = is_fresh ? step_in_contact(contact, dt) : dt;
+    const auto place   = triple(body.position) + touch.distance * contact.normal;
+    if (step.turns)
+      turn_with_wall(step, place, triple(body.drift), dt, contact, springs);
+    contact.step      = is_fresh ? step_in_contact(contact, dt) : dt;
     const auto action = contact_action<NormalLaw, RollingLaw>(material, contact, springs);
     if (!(contact.overlap < largest_overlap * body.radius &&
           action.force.norm_square() < largest_force * largest_force))
@@ -95,6 +94,10 @@ namespace graupel
         quanta[3 + d] += static_cast<std::int64_t>((1. / quantum.torque) * turn[d]);
         loads[wall][d] -= static_cast<std::int64_t>((1. / quantum.wall) * force[d]);
       }
+    const auto on_wall =
+      cross(place - step.end.center, action.force) + action.rolling_torque;
+    loads[wall][3] -= static_cast<std::int64_t>((1. / quantum.wall_torque) *
+                                                (on_wall * motion.course.axis()));
   }
 
   void
@@ -109,7 +112,7 @@ namespace graupel
           [&](const auto normal, const auto rolling) {
             sweep_surface<std::decay_t<decltype(normal)>,
                           std::decay_t<decltype(rolling)>>(
-              particles, w, *surface, materials, dt);
+              particles, w, *surface, walls[w], materials, dt);
           },
           normal_law,
           rolling_law);

@@ -298,14 +298,19 @@ namespace graupel
                                     ParticleArrays     &particles,
                                     const unsigned int  wall,
                                     const Surface      &surface,
+                                    const Wall         &motion,
                                     const PairMaterial &material,
                                     const double        density,
                                     const double        dt)
   {
     const double        to_mass  = 4. / 3. * PI * density;
     const double        to_force = 1. / quantum.force, to_torque = 1. / quantum.torque;
-    const Triple<Lanes> u{surface.velocity.x, surface.velocity.y, surface.velocity.z};
-    WholeLanes          sum[3] = {0, 0, 0};
+    const WallStep     &step     = motion.step;
+    const Triple<Lanes> u        = lift<Lanes>(step.end.velocity);
+    const Triple<Lanes> u_middle = lift<Lanes>(step.middle.velocity);
+    const Triple<Lanes> center   = lift<Lanes>(step.end.center);
+    const Triple<Lanes> axis     = lift<Lanes>(motion.course.axis());
+    WholeLanes          sum[4]   = {0, 0, 0, 0};
 
     for (std::size_t b = 0; b < contacts.blocks.size(); ++b)
       {
@@ -323,16 +328,19 @@ namespace graupel
         contact.radius     = i.radius;
         contact.mass       = to_mass * i.radius * i.radius * i.radius;
         contact.velocity   = i.velocity - u + arm * cross(i.spin, contact.normal);
-        contact.drift      = i.drift - u + arm * cross(i.spin_drift, contact.normal);
-        contact.spin_drift = i.spin_drift;
-        contact.step       = dt;
-        const auto fresh   = lane_numbers() + static_cast<double>(b * n_lanes) >=
+        contact.drift = i.drift - u_middle + arm * cross(i.spin_drift, contact.normal);
+        contact.spin_drift          = i.spin_drift;
+        const Triple<Lanes> place   = i.position + arm * contact.normal;
+        Springs<Lanes>      springs = load_springs(block);
+        if (step.turns)
+          turn_with_wall(step, place, i.drift, dt, contact, springs);
+        contact.step     = dt;
+        const auto fresh = lane_numbers() + static_cast<double>(b * n_lanes) >=
                            Lanes(1. * contacts.first_fresh());
         if (some(fresh))
           contact.step = select(fresh, step_in_contact(contact, dt), contact.step);
 
-        Springs<Lanes> springs = load_springs(block);
-        const auto     alive =
+        const auto alive =
           here && contact.overlap > NormalLaw::release_overlap(material, contact.radius);
         const auto action =
           contact_action<NormalLaw, RollingLaw>(material, contact, springs);
@@ -361,8 +369,11 @@ namespace graupel
         sum[0] -= whole(counts, (1. / quantum.wall) * action.force.x);
         sum[1] -= whole(counts, (1. / quantum.wall) * action.force.y);
         sum[2] -= whole(counts, (1. / quantum.wall) * action.force.z);
+        const Lanes on_wall =
+          (cross(place - center, action.force) + action.rolling_torque) * axis;
+        sum[3] -= whole(counts, (1. / quantum.wall_torque) * on_wall);
       }
-    for (unsigned int d = 0; d < 3; ++d)
+    for (unsigned int d = 0; d < 4; ++d)
       loads[wall][d] += std::experimental::reduce(sum[d]);
   }
 
@@ -371,6 +382,7 @@ namespace graupel
   ContactSweep::sweep_wall(ParticleArrays    &particles,
                            const unsigned int wall,
                            const Surface     &surface,
+                           const Wall        &motion,
                            const Materials   &materials,
                            const double       dt)
   {
@@ -382,6 +394,7 @@ namespace graupel
                                                    particles,
                                                    wall,
                                                    surface,
+                                                   motion,
                                                    materials.with_wall(wall, type),
                                                    materials.density[type],
                                                    dt);
@@ -434,7 +447,8 @@ namespace graupel
               using Surface = std::decay_t<decltype(surface)>;
               if constexpr (!std::is_same_v<Surface, NoWall> &&
                             !std::is_same_v<Surface, SurfaceWall>)
-                sweep_wall<NormalLaw, RollingLaw>(particles, w, surface, materials, dt);
+                sweep_wall<NormalLaw, RollingLaw>(
+                  particles, w, surface, walls[w], materials, dt);
             },
             walls[w].shape);
       },
@@ -446,21 +460,24 @@ namespace graupel
   void
   ContactSweep::reset_wall_loads()
   {
-    std::fill(loads.begin(), loads.end(), std::array<std::int64_t, 3>{});
+    std::fill(loads.begin(), loads.end(), std::array<std::int64_t, 4>{});
   }
 
-  std::vector<dealii::Tensor<1, 3>>
+  std::vector<WallLoad>
   ContactSweep::wall_loads(MPI_Comm communicator) const
   {
-    std::vector<std::array<std::int64_t, 3>> all(loads.size());
+    std::vector<std::array<std::int64_t, 4>> all(loads.size());
     const int                                ierr = MPI_Allreduce(
-      loads.data(), all.data(), 3 * loads.size(), MPI_INT64_T, MPI_SUM, communicator);
+      loads.data(), all.data(), 4 * loads.size(), MPI_INT64_T, MPI_SUM, communicator);
     AssertThrowMPI(ierr);
 
-    std::vector<dealii::Tensor<1, 3>> forces(loads.size());
+    std::vector<WallLoad> result(loads.size());
     for (unsigned int w = 0; w < all.size(); ++w)
-      for (unsigned int d = 0; d < 3; ++d)
-        forces[w][d] = quantum.wall * static_cast<double>(all[w][d]);
-    return forces;
+      {
+        for (unsigned int d = 0; d < 3; ++d)
+          result[w].force[d] = quantum.wall * static_cast<double>(all[w][d]);
+        result[w].torque = quantum.wall_torque * static_cast<double>(all[w][3]);
+      }
+    return result;
   }
 } // namespace graupel

@@ -63,7 +63,7 @@ namespace graupel
       {
         // A wall that moves comes nearer to all.
         auto      &rows   = wall_rows[w];
-        const bool all    = walls[w].velocity().norm_square() > 0.;
+        const bool all    = walls[w].course.moves();
         const auto is_old = [&](const std::uint32_t row) {
           return all || row >= particles.n_owned || moves[row];
         };

@@ -111,6 +111,11 @@ namespace graupel
             "Filling/drop speed",
             "particles must leave the place where they enter; choose a positive speed, "
             "in m/s");
+    require((method != "rain" && method != "packing") || !start_from.empty() ||
+              particles.particles.gravity_is_axial(),
+            "Filling/method",
+            "particles fall from the top along the axis, but Particles/gravity points "
+            "elsewhere; take the method volume or list");
     require(interval >= 0.,
             "Filling/interval",
             "a time is positive, in seconds; 0 for the default");

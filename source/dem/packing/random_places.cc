@@ -69,7 +69,7 @@ namespace graupel
   RandomPlaces::is_inside(const dealii::Point<3> &center, const double room) const
   {
     for (std::size_t w = top_wall + 1; w < walls.size(); ++w)
-      if (walls[w].is_near(center, room))
+      if (!walls[w].is_admissible(center, room))
         return false;
     return true;
   }

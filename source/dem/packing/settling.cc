@@ -164,10 +164,10 @@ namespace graupel
   void
   Settling::tap()
   {
-    const double g = dem.parameters().particles.gravity;
+    const auto   g = dem.parameters().gravity();
     const double phi =
       2. * dealii::numbers::PI * tap_frequency * (tap_time + 0.5 * tap_piece);
-    dem.set_gravity(g * (1. + amplitude * std::sin(phi)));
+    dem.set_gravity((1. + amplitude * std::sin(phi)) * g);
     dem.advance(tap_piece);
     elapsed += tap_piece;
     tap_time += tap_piece;

@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <optional>
 #include <sstream>
 #include <tuple>
 
@@ -33,6 +34,9 @@ namespace graupel
     constexpr double same_angle = 1e-9;
     // Of the reach: places nearer to each other than this are the same.
     constexpr double same_place = 1e-3;
+    // Rays that are tried, as one may meet an edge by chance, and their slope.
+    constexpr unsigned int n_ray_directions = 8;
+    constexpr double       ray_tilt         = 0.02;
 
     // Where on a triangle: see SurfaceTopology::feature().
     struct NearestPoint
@@ -80,6 +84,46 @@ namespace graupel
 
       const auto normal = unit_normal(t);
       return {x - ((x - t[0]) * normal) * normal, 0};
+    }
+
+    // How a ray meets a triangle; "unclear" where it is within rounding of an edge.
+    enum class Crossing
+    {
+      none,
+      crosses,
+      unclear,
+      begins_on_it
+    };
+
+    /*
+     * The ray passes the triangle's three sides on the same hand: the volumes that it
+     * spans with them have one sign.
+     * Source: Ericson, Real-Time Collision Detection (2005), section 5.3.4.
+     */
+    Crossing
+    crossing(const Triangle             &t,
+             const dealii::Point<3>     &begin,
+             const dealii::Tensor<1, 3> &direction)
+    {
+      const dealii::Tensor<1, 3> a = t[0] - begin, b = t[1] - begin, c = t[2] - begin;
+      const double               size = std::max({a.norm(), b.norm(), c.norm()});
+      const double error = 10. * rounding * std::max(size * size, begin.norm() * size);
+      const double volumes[3] = {direction * dealii::cross_product_3d(b, c),
+                                 direction * dealii::cross_product_3d(c, a),
+                                 direction * dealii::cross_product_3d(a, b)};
+      const auto   least      = *std::min_element(volumes, volumes + 3);
+      const auto   most       = *std::max_element(volumes, volumes + 3);
+      if (least < -error && most > error)
+        return Crossing::none;
+      if (least <= error && most >= -error)
+        return Crossing::unclear;
+
+      const auto   normal = unit_normal(t);
+      const double height = a * normal;
+      if (std::abs(height) <= 10. * rounding * std::max(size, begin.norm()))
+        return Crossing::begins_on_it;
+      return (height > 0.) == (direction * normal > 0.) ? Crossing::crosses
+                                                        : Crossing::none;
     }
 
     void
@@ -175,14 +219,20 @@ namespace graupel
                    const double            reach,
                    std::vector<Touch>     &touches) const;
     void name_after_facets(const double reach, std::vector<Touch> &touches) const;
+    // Whether a ray from an inner point of the bounding box meets the surface an odd
+    // number of times; nothing where that is unclear.
+    std::optional<bool> is_inside(const dealii::Point<3>     &point,
+                                  const dealii::Tensor<1, 3> &direction) const;
 
     SurfaceTopology                           topology;
+    bool                                      is_closed;
     index::rtree<TreeEntry, index::rstar<16>> tree;
     dealii::BoundingBox<3>                    bounding_box;
   };
 
   SurfaceMesh::Data::Data(const std::vector<Triangle> &triangles)
     : topology(checked(triangles))
+    , is_closed(topology.is_closed())
     , tree(tree_entries(topology))
   {
     const auto       bounds = tree.bounds();
@@ -278,6 +328,31 @@ namespace graupel
     touches.erase(end, touches.end());
   }
 
+  std::optional<bool>
+  SurfaceMesh::Data::is_inside(const dealii::Point<3>     &point,
+                               const dealii::Tensor<1, 3> &direction) const
+  {
+    // The box around a ray that nearly follows a coordinate is thin.
+    const auto       corners = bounding_box.get_boundary_points();
+    const auto       way     = 2. * corners.first.distance(corners.second) * direction;
+    dealii::Point<3> lower = point, upper = point;
+    for (unsigned int d = 0; d < 3; ++d)
+      (way[d] < 0. ? lower : upper)[d] += way[d];
+    unsigned int n_crossings = 0;
+    bool         is_clear = true, is_on_it = false;
+    const auto   meet = [&](const TreeEntry &entry) {
+      const auto found = crossing(topology.triangle(entry.second), point, direction);
+      n_crossings += found == Crossing::crosses;
+      is_clear = is_clear && found != Crossing::unclear;
+      is_on_it = is_on_it || found == Crossing::begins_on_it;
+    };
+    tree.query(index::intersects(box_around(lower, upper)),
+               boost::make_function_output_iterator(meet));
+    if (is_on_it)
+      return true;
+    return is_clear ? std::optional<bool>(n_crossings % 2 == 1) : std::nullopt;
+  }
+
   SurfaceMesh::SurfaceMesh(const std::vector<std::array<dealii::Point<3>, 3>> &triangles)
     : data(std::make_shared<const Data>(triangles))
   {
@@ -357,6 +432,35 @@ namespace graupel
   SurfaceMesh::n_free_edges() const
   {
     return data->topology.n_free_edges();
+  }
+
+  std::array<dealii::Point<3>, 3>
+  SurfaceMesh::triangle(const unsigned int t) const
+  {
+    return data->topology.triangle(t);
+  }
+
+  bool
+  SurfaceMesh::is_closed() const
+  {
+    return data->is_closed;
+  }
+
+  bool
+  SurfaceMesh::contains(const dealii::Point<3> &point) const
+  {
+    if (!is_closed() || !bounding_box().point_inside(point))
+      return false;
+    // Up, and aside by what no edge of a drawing is; anew where that meets an edge.
+    for (unsigned int k = 0; k < n_ray_directions; ++k)
+      {
+        dealii::Tensor<1, 3> direction(
+          {ray_tilt * std::sin(1. + 2.3 * k), ray_tilt * std::sin(2. + 3.1 * k), 1.});
+        direction /= direction.norm();
+        if (const auto inside = data->is_inside(point, direction))
+          return *inside;
+      }
+    return true; // on an edge or a corner
   }
 
   const dealii::BoundingBox<3> &

@@ -62,6 +62,15 @@ namespace graupel
     return n;
   }
 
+  bool
+  SurfaceTopology::is_closed() const
+  {
+    for (unsigned int e = 0; e < n_edges; ++e)
+      if (triangles.end(e) - triangles.begin(e) != 2)
+        return false;
+    return true;
+  }
+
   SurfaceTopology::Range
   SurfaceTopology::triangles_of(const unsigned int feature) const
   {

@@ -41,17 +41,43 @@ namespace graupel
   contact_of_wall(const Body                 &i,
                   const double                mass,
                   const WallGeometry<double> &geometry,
-                  const Triple<double>       &wall_velocity)
+                  const WallStep             &wall)
   {
+    const auto      place = triple(i.position) + geometry.distance * geometry.normal;
     Contact<double> contact;
     contact.overlap  = i.radius - geometry.distance;
     contact.normal   = geometry.normal;
     contact.radius   = i.radius;
     contact.mass     = mass;
-    contact.velocity = triple(i.velocity) - wall_velocity +
+    contact.velocity = triple(i.velocity) - wall.end.at(place) +
                        geometry.distance * cross(triple(i.spin), contact.normal);
     contact.step = 0.;
     return contact;
+  }
+
+  /**
+   * Takes the rotation of a wall from the motion of a particle against its translation,
+   * and turns the springs with the wall: a wall and a sphere that turn together rest
+   * against each other. @p place of the contact [m]; @p particle_drift: of the center
+   * through the substep @p dt [s].
+   */
+  template <class Real>
+  [[gnu::always_inline]] inline void
+  turn_with_wall(const WallStep     &wall,
+                 const Triple<Real> &place,
+                 const Triple<Real> &particle_drift,
+                 const double        dt,
+                 Contact<Real>      &contact,
+                 Springs<Real>      &springs)
+  {
+    const auto half_way = place - Real(0.5 * dt) * particle_drift;
+    const auto spin     = lift<Real>(wall.middle.spin);
+    contact.velocity -=
+      cross(lift<Real>(wall.end.spin), place - lift<Real>(wall.end.center));
+    contact.drift -= cross(spin, half_way - lift<Real>(wall.middle.center));
+    contact.spin_drift -= spin;
+    springs.tangential = wall.turn(springs.tangential);
+    springs.rolling    = wall.turn(springs.rolling);
   }
 
   /** Whether a wall is made of triangles. */

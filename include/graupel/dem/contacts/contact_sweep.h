@@ -22,6 +22,8 @@ namespace graupel
       , torque(force * reference_radius)
       // Loads are summed over many sweeps and whole beds: more room, coarser.
       , wall(reference_force * 0x1p-36)
+      // The arms may be many radii long.
+      , wall_torque(64. * wall * reference_radius)
     {
     }
 
@@ -31,6 +33,8 @@ namespace graupel
     double torque;
     /** Quantum of a wall's load [N]. */
     double wall;
+    /** Quantum of a wall's torque [N m]. */
+    double wall_torque;
 
     dealii::Tensor<1, 3>
     force_of(const Load &load) const
@@ -47,6 +51,15 @@ namespace graupel
                                    torque * static_cast<double>(load.quanta[4]),
                                    torque * static_cast<double>(load.quanta[5])});
     }
+  };
+
+  /** What the particles do to a wall. */
+  struct WallLoad
+  {
+    /** [N] */
+    dealii::Tensor<1, 3> force;
+    /** About the axis of its course [N m]. */
+    double torque = 0.;
   };
 
   /** One contact, for output. */
@@ -179,10 +192,13 @@ namespace graupel
     void reset_wall_loads();
 
     /**
-     * Force on each wall summed over all sweeps since the last reset and over
-     * all ranks of @p communicator [N]. Collective.
+     * Force on each wall [N] and torque about its axis [N m], summed over all sweeps
+     * since the last reset and over all ranks of @p communicator. Collective.
      */
-    std::vector<dealii::Tensor<1, 3>> wall_loads(MPI_Comm communicator) const;
+    std::vector<WallLoad> wall_loads(MPI_Comm communicator) const;
+
+    /** Forgets all contacts with a wall that has gone. */
+    void leave_wall(const unsigned int wall);
 
   private:
     void begin_pairs(const ParticleArrays &particles, VerletList &list);
@@ -205,6 +221,7 @@ namespace graupel
     void sweep_wall(ParticleArrays    &particles,
                     const unsigned int wall,
                     const Surface     &surface,
+                    const Wall        &motion,
                     const Materials   &materials,
                     const double       dt);
 
@@ -213,6 +230,7 @@ namespace graupel
                              ParticleArrays     &particles,
                              const unsigned int  wall,
                              const Surface      &surface,
+                             const Wall         &motion,
                              const PairMaterial &material,
                              const double        density,
                              const double        dt);
@@ -228,6 +246,7 @@ namespace graupel
     void sweep_surface(ParticleArrays    &particles,
                        const unsigned int wall,
                        const SurfaceWall &surface,
+                       const Wall        &motion,
                        const Materials   &materials,
                        const double       dt);
 
@@ -236,7 +255,7 @@ namespace graupel
                                const std::uint32_t       row,
                                const SurfaceMesh::Touch &touch,
                                const unsigned int        wall,
-                               const Triple<double>     &wall_velocity,
+                               const Wall               &motion,
                                const PairMaterial       &material,
                                const double              dt,
                                const bool                is_fresh,
@@ -269,8 +288,9 @@ namespace graupel
     std::vector<ContactList> pair_lists;
     std::vector<ContactList> wall_lists;
     // For each wall the rows near it that do not touch it; all for a surface.
-    std::vector<std::vector<std::uint32_t>>  idle_rows;
-    std::vector<std::array<std::int64_t, 3>> loads;
+    std::vector<std::vector<std::uint32_t>> idle_rows;
+    // Of each wall: force, and torque about its axis.
+    std::vector<std::array<std::int64_t, 4>> loads;
     // Contacts of the list at work that have ended, in ascending order.
     std::vector<std::uint32_t>      ended;
     std::vector<SurfaceMesh::Touch> touches;

@@ -83,6 +83,9 @@ namespace graupel
 
     unsigned int n_triangles() const;
 
+    /** Corners of triangle number @p t [m]. */
+    std::array<dealii::Point<3>, 3> triangle(const unsigned int t) const;
+
     unsigned int n_facets() const;
 
     /**
@@ -90,6 +93,16 @@ namespace graupel
      * the surface is closed; many, where it should be, if its pieces do not fit.
      */
     unsigned int n_free_edges() const;
+
+    /** Whether the surface has an inside: each edge belongs to two triangles. */
+    bool is_closed() const;
+
+    /**
+     * Whether @p point lies inside of a closed surface, or on it, by how often a ray from
+     * there meets triangles: how they are wound plays no role, and a hollow within the
+     * body is outside. False if the surface is not closed.
+     */
+    bool contains(const dealii::Point<3> &point) const;
 
     /** The smallest box around all triangles [m]. */
     const dealii::BoundingBox<3> &bounding_box() const;

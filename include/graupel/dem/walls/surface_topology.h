@@ -91,6 +91,9 @@ namespace graupel
     /** Edges of one triangle only. */
     unsigned int n_free_edges() const;
 
+    /** Whether each edge belongs to two triangles. */
+    bool is_closed() const;
+
     /** The largest absolute coordinate [m], by which rounding is measured. */
     double
     size() const

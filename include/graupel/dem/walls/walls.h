@@ -4,6 +4,7 @@
 #include <graupel/dem/numbers/lanes.h>
 #include <graupel/dem/numbers/triple.h>
 #include <graupel/dem/walls/surface_mesh.h>
+#include <graupel/dem/walls/wall_course.h>
 #include <graupel/mesh/cylinder.h>
 
 #include <deal.II/base/parameter_handler.h>
@@ -37,8 +38,6 @@ namespace graupel
     Triple<double> point;
     /** Unit normal, out of the vessel. */
     Triple<double> normal;
-    /** Velocity with which it moves [m/s]. */
-    Triple<double> velocity = {};
 
     template <class Real>
     WallGeometry<Real>
@@ -53,8 +52,7 @@ namespace graupel
   struct TubeWall
   {
     /** Inner radius [m]. */
-    double         radius;
-    Triple<double> velocity = {};
+    double radius;
 
     template <class Real>
     WallGeometry<Real>
@@ -71,11 +69,12 @@ namespace graupel
     }
   };
 
-  /** An end of the vessel through which particles leave, or come in again. */
+  /**
+   * An end of the vessel through which particles leave, or come in again; a wall that
+   * is not there yet, or no more.
+   */
   struct NoWall
   {
-    Triple<double> velocity = {};
-
     template <class Real>
     WallGeometry<Real>
     at(const Triple<Real> &) const
@@ -87,16 +86,40 @@ namespace graupel
   /** A wall made of triangles, in which a sphere can touch several facets. */
   struct SurfaceWall
   {
-    SurfaceMesh    mesh;
-    Triple<double> velocity = {};
+    /** As it was built: the mesh stays, the particles are seen from it. */
+    SurfaceMesh mesh;
+    /** Where it is now. */
+    Placement placement = {};
+    bool      has_moved = false;
+    /** Whether the particles are inside of it; it is closed then. */
+    bool is_container = false;
+
+    /** See SurfaceMesh::touches(); places and normals are those of the vessel. */
+    void touches(const dealii::Point<3>          &center,
+                 const double                     reach,
+                 std::vector<SurfaceMesh::Touch> &touches) const;
+
+    /** @p place as the mesh sees it. */
+    dealii::Point<3> seen_from_mesh(const dealii::Point<3> &place) const;
   };
+
+  using WallShape = std::variant<PlaneWall, TubeWall, NoWall, SurfaceWall>;
 
   /** One wall of the vessel; the analytic ones are exact. */
   struct Wall
   {
     /** "wall", "bottom", "top", as in the output. */
-    std::string                                            name;
-    std::variant<PlaneWall, TubeWall, NoWall, SurfaceWall> shape;
+    std::string name;
+    /** Where it is now; NoWall while it is not there. */
+    WallShape shape;
+    /** What it does over time. */
+    WallCourse course = {};
+    WallPose   pose   = {};
+    /** Its motion through the last substep. */
+    WallStep step = {};
+    /** Its shape as built, once it has moved or gone. */
+    std::optional<WallShape> built    = {};
+    bool                     is_there = true;
 
     /**
      * Where a sphere touches: for a surface at this @p facet, as far as it is
@@ -109,22 +132,48 @@ namespace graupel
     /** Whether the wall is closer to @p x than @p distance [m]. */
     bool is_near(const dealii::Point<3> &x, const double distance) const;
 
+    /**
+     * Whether a particle may be at @p x as far as this wall goes: farther away than
+     * @p distance [m], not beyond a plane, not inside a closed surface, but inside of
+     * one that is a container.
+     */
+    bool is_admissible(const dealii::Point<3> &x, const double distance) const;
+
+    /** Velocity of the middle of its axis [m/s]. */
     const Triple<double> &
     velocity() const
     {
-      return std::visit(
-        [](const auto &surface) -> const Triple<double> & { return surface.velocity; },
-        shape);
+      return step.end.velocity;
     }
 
-    /** Moves the wall through @p dt [s]. */
-    void
-    move(const double dt)
-    {
-      if (auto *plane = std::get_if<PlaneWall>(&shape))
-        plane->point += dt * plane->velocity;
-    }
+    /** Moves the wall through @p dt [s], from @p clock on. */
+    void move(const double dt, const Clock &clock = {});
+
+    /** Puts it where @p where says, as @p clock says. */
+    void place(const WallPose &where, const Clock &clock);
+
+    /** Comes or goes by @p clock; whether it has. */
+    bool look_at(const Clock &clock);
+
+    /**
+     * A bound on how fast its surface came nearer to any particle in the last substep
+     * [m/s]; @p vessel_size: of the vessel and all particles from the origin [m].
+     */
+    double approach_speed(const double vessel_size) const;
+
+    /** Equal for walls of the same shape, as built: their facets have the same numbers.
+     */
+    std::uint64_t fingerprint() const;
   };
+
+  /**
+   * The first of the walls from number @p first on that does not admit a particle at
+   * @p x (see Wall::is_admissible()); none: null.
+   */
+  const Wall *first_refusing_wall(const std::vector<Wall> &walls,
+                                  const dealii::Point<3>  &x,
+                                  const double             distance,
+                                  const unsigned int       first = 0);
 
   /** Places of the vessel's walls in the list of vessel_walls(). */
   enum VesselWall : unsigned int
@@ -143,11 +192,17 @@ namespace graupel
     /** "closed", "open" (particles leave) or "periodic". */
     std::string bottom = "closed";
     std::string top    = "closed";
-    /** Planes: point [m], normal out of the vessel, optional velocity [m/s]. */
+    /** Planes: name, point [m], normal out of the vessel, optional velocity [m/s]. */
     std::string planes;
-    /** STL files, and the length of their unit [m]. */
+    /** STL files with their names, and the length of their unit [m]. */
     std::string surfaces;
     double      surface_unit = 1e-3;
+    /** Names of the surfaces in which the particles are. */
+    std::string containers;
+    /** "NAME = velocity A; B; C | NAME = rotation X Y Z; AX AY AZ; OMEGA". */
+    std::string motion;
+    /** "NAME until T, NAME from T, NAME until settled". */
+    std::string gates;
 
     /** Declares the section "Walls". */
     void declare(dealii::ParameterHandler &prm);
@@ -166,10 +221,23 @@ namespace graupel
     }
 
     /**
+     * Names of the walls of walls(), in their order; no file is read. Throws InputError
+     * for names that cannot be.
+     */
+    std::vector<std::string> names() const;
+
+    /**
      * The walls of the vessel in the order of VesselWall, then the planes, then
      * the surfaces. Throws InputError for what cannot be read.
      */
     std::vector<Wall> walls(const Cylinder &cylinder) const;
+
+  private:
+    void declare_courses(dealii::ParameterHandler &prm);
+    void set_course(const std::string &entry, std::vector<Wall> &walls) const;
+    void set_gate(const std::string &entry, std::vector<Wall> &walls) const;
+    // The walls without the surfaces' triangles, which stand as NoWall.
+    std::vector<Wall> outline(const Cylinder &cylinder) const;
   };
 
   /** Walls that a vessel can have, beyond any use. */
