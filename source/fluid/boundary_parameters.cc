@@ -25,6 +25,15 @@ namespace graupel
                               {"no-slip", BoundaryCondition::no_slip, 0},
                               {"slip", BoundaryCondition::slip, 0}};
 
+    // Whether @p text is @p word, or goes on behind it after a blank.
+    bool
+    begins_with_word(const std::string &text, const std::string &word)
+    {
+      return text.compare(0, word.size(), word) == 0 &&
+             (text.size() == word.size() || text[word.size()] == ' ' ||
+              text[word.size()] == '\t');
+    }
+
     void
     try_expressions(const std::vector<std::string> &expressions,
                     const std::string              &parameter)
@@ -53,7 +62,7 @@ namespace graupel
     for (const Word &word : words)
       {
         const std::string name = word.text;
-        if (trimmed.compare(0, name.size(), name) != 0)
+        if (!begins_with_word(trimmed, name))
           continue;
         BoundaryCondition result;
         result.kind        = word.kind;
