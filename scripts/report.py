@@ -15,17 +15,10 @@ import sys
 from pathlib import Path
 
 try:
-    from report_parts import (
-        figures_bed,
-        figures_inside,
-        figures_run,
-        figures_settled,
-        page,
-        reference,
-        study,
-        style,
-    )
-    from report_parts.run_output import read_run
+    from common import reference, style
+    from common.run_output import read_run
+    from report_parts import figures_bed, figures_inside, figures_run, figures_settled
+    from report_parts import page, study
 except ImportError as error:
     sys.exit(f"report.py: {error}. The report needs Debian's python3-matplotlib.")
 

@@ -4,8 +4,8 @@ import numpy as np
 from matplotlib.colors import Normalize
 
 from .figures_bed import label_of
-from .run_output import grid_of
-from .style import BLACK, GREY, MILLI, NothingToShow, colour_of_each, known, new_figure
+from common.run_output import grid_of
+from common.style import BLACK, GREY, MILLI, NothingToShow, colour_of_each, known, new_figure
 
 MOST_PANELS = 7
 

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from .style import (
+from common.style import (
     BLUE,
     GREEN,
     GREY,

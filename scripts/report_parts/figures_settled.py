@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from .style import BLACK, BLUE, GREY, MILLI, ORANGE, VERMILLION, NothingToShow, new_figure
+from common.style import BLACK, BLUE, GREY, MILLI, ORANGE, VERMILLION, NothingToShow, new_figure
 
 
 def table_of(run, name):

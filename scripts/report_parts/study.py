@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 
 from . import page
-from .style import BLACK, BLUE, GREY, PERCENT, VERMILLION, new_figure, render
+from common.style import BLACK, BLUE, GREY, PERCENT, VERMILLION, new_figure, render
 
 # What a study varies, by the column that changes from level to level.
 SIZES = {

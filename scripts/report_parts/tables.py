@@ -4,7 +4,9 @@ from html import escape
 
 import numpy as np
 
-from . import reference, words
+from common import reference
+
+from . import words
 
 NO_CASES = '<p class="absent">No flow case was found.</p>'
 

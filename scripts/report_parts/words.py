@@ -1,6 +1,6 @@
 """Numbers and findings as text."""
 
-from . import reference
+from common import reference
 
 NONE = "-"
 MINUS = "\u2212"

@@ -14,6 +14,8 @@ TEST(BoundaryCondition, AWordEndsAtABlank)
   EXPECT_EQ(read(" pressure\t100 ").expressions, std::vector<std::string>{"100"});
   EXPECT_EQ(read("velocity 0; 0; V").kind, BoundaryCondition::velocity);
   EXPECT_EQ(read("no-slip").kind, BoundaryCondition::no_slip);
+  EXPECT_EQ(read("pressure 1/(t - 1)").kind, BoundaryCondition::pressure);
+  EXPECT_EQ(read("velocity 0; 0; sqrt(x - 0.05)").kind, BoundaryCondition::velocity);
   for (const char *text : {"pressure100",
                            "pressure(100)",
                            "pressures 100",
@@ -25,6 +27,9 @@ TEST(BoundaryCondition, AWordEndsAtABlank)
                            "plug 3",
                            "velocity 0; 0",
                            "velocity 0; 0; W",
+                           "velocity 0; 0; sqrt(-1)",
+                           "pressure 1e400",
+                           "pressure nan",
                            ""})
     try
       {

@@ -6,7 +6,8 @@ import math
 
 import numpy as np
 
-from report_parts import figures_run, reference, run_output
+from common import reference, run_output
+from report_parts import figures_run
 
 VESSEL = 25e-3
 AREA = math.pi * VESSEL**2 / 4.0

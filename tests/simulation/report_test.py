@@ -18,7 +18,8 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "scripts"))
 import numpy as np
 
 import report
-from report_parts import figures_inside, figures_run, page, reference, run_output, words
+from common import reference, run_output
+from report_parts import figures_inside, figures_run, page, words
 from report_fixture import DENSITY, VESSEL, VISCOSITY, one_case, summary_of, write_run
 
 

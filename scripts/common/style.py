@@ -58,6 +58,10 @@ class NothingToShow(Exception):
     """The data of a figure are not there; the message says which."""
 
 
+class NotOfThisRun(NothingToShow):
+    """The run has nothing of the kind (no flow, no particles), so that nothing is missing."""
+
+
 @dataclass
 class Rendered:
     """A finished figure: the name of its PNG file, and its SVG as a data URI."""
@@ -115,6 +119,37 @@ def plot_cases(axes, cases, values, colour, label, marker="o", line="-"):
         markeredgecolor=colour,
         markeredgewidth=1.4,
         label=None if np.any(~lifted) else label,
+    )
+
+
+def diamonds(axes, x, y, label, **more):
+    """The paper's own values: hollow diamonds."""
+    axes.plot(
+        x, y, "D", markerfacecolor="none", markeredgecolor=VERMILLION, label=label, **more
+    )
+
+
+def note(axes, text, at, offset=(4, 3), colour=PURPLE, fontsize=8, **more):
+    """A text near the point @p at, so many points beside it."""
+    axes.annotate(
+        text,
+        at,
+        xytext=offset,
+        textcoords="offset points",
+        color=colour,
+        fontsize=fontsize,
+        **more,
+    )
+
+
+def shade_papers_band(axes, paper, label):
+    """The paper's range of deviations [%] over the cases before its onset, in grey."""
+    axes.fill_between(
+        [paper.velocity[0], paper.velocity[-2]],
+        *np.array(paper.band) * PERCENT,
+        color="#DCDCDC",
+        linewidth=0,
+        label=label,
     )
 
 
