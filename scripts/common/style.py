@@ -1,6 +1,7 @@
 """How the figures look, and how they reach the page and the folder of PNG files."""
 
 import base64
+import functools
 import io
 from dataclasses import dataclass
 
@@ -97,7 +98,9 @@ def colour_of_each(count):
 
 def column(cases, key):
     """One quantity of all cases, as an array with NaN where it is not known."""
-    return np.array([np.nan if case[key] is None else case[key] for case in cases], dtype=float)
+    return np.array(
+        [np.nan if case.get(key) is None else case[key] for case in cases], dtype=float
+    )
 
 
 def known(values):
@@ -156,6 +159,18 @@ def shade_papers_band(axes, paper, label):
 def velocity_axis(axes):
     """Labels the axis of the superficial velocity."""
     axes.set_xlabel("superficial velocity $V_s$ [m/s]")
+
+
+def of_cases(make):
+    """A figure of the flow cases: a run that has none does not miss it."""
+
+    @functools.wraps(make)
+    def figure(run, paper):
+        if not run.has_flow():
+            raise NotOfThisRun("there is no flow")
+        return make(run, paper)
+
+    return figure
 
 
 def need_cases(cases):

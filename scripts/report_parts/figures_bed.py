@@ -5,7 +5,7 @@ import numpy as np
 from common import reference
 from common.style import BLACK, BLUE, GREEN, GREY, ORANGE, PURPLE, VERMILLION
 from common.style import MILLI, PERCENT, NothingToShow, colour_of_each, column, known
-from common.style import diamonds, need_cases, new_figure, note, plot_cases
+from common.style import diamonds, need_cases, new_figure, note, of_cases, plot_cases
 from common.style import shade_papers_band, velocity_axis
 
 
@@ -18,6 +18,7 @@ def label_of(run, number):
     return f"case {number}: {case['superficial_velocity']:.3f} m/s{lifted}"
 
 
+@of_cases
 def pressure_profile(run, paper):
     """Section-averaged pressure along the axis against Ergun's line, and the void fraction."""
     if not run.profiles:
@@ -53,6 +54,7 @@ def pressure_profile(run, paper):
     return figure
 
 
+@of_cases
 def pressure_drop(run, paper):
     """Pressure drop against superficial velocity: computed, Ergun, paper, weight per area."""
     need_cases(run.cases)
@@ -111,6 +113,7 @@ def mark_outside(axes, cases, values, limits, colour):
         )
 
 
+@of_cases
 def deviation(run, paper):
     """Relative deviation from Ergun: whole bed, middle half, and what the wall predicts."""
     need_cases(run.cases)
@@ -141,6 +144,7 @@ def deviation(run, paper):
     return figure
 
 
+@of_cases
 def bottom_force(run, paper):
     """What the bottom and the wall carry, and what the fluid leaves for them."""
     need_cases(run.cases)
@@ -155,7 +159,10 @@ def bottom_force(run, paper):
     velocity = column(run.cases, "superficial_velocity")
     if known(left):
         axes.plot(velocity, left, "--", color=GREY, linewidth=1.2, label="weight less fluid force")
-    if known(bottom) and known(wall):
+    supports = column(run.cases, "support_force")
+    if known(supports):
+        axes.plot(velocity, supports, "x", color=BLACK, markersize=6, label="all walls")
+    elif known(bottom) and known(wall):
         axes.plot(velocity, bottom + wall, "x", color=BLACK, markersize=6, label="bottom + wall")
     if known(bottom):
         plot_cases(axes, run.cases, bottom, BLUE, "bottom")
@@ -172,6 +179,7 @@ def bottom_force(run, paper):
     return figure
 
 
+@of_cases
 def bed_height(run, paper):
     """Height of the bed, and how far it rose, against superficial velocity."""
     need_cases(run.cases)
