@@ -13,10 +13,10 @@ import sys
 from pathlib import Path
 
 try:
+    from common.reference import paper_for
+    from common.style import ORANGE, VERMILLION, render
     from paper_parts import figures, page
     from paper_parts.runs import Runs
-    from report_parts.reference import paper_for
-    from report_parts.style import BLUE, GREEN, ORANGE, PURPLE, VERMILLION, render
 except ImportError as error:
     sys.exit(f"paper.py: {error}. It needs Debian's python3-matplotlib.")
 

@@ -15,17 +15,10 @@ import sys
 from pathlib import Path
 
 try:
-    from report_parts import (
-        figures_bed,
-        figures_inside,
-        figures_run,
-        figures_settled,
-        page,
-        reference,
-        study,
-        style,
-    )
-    from report_parts.run_output import read_run
+    from common import reference, style
+    from common.run_output import read_run
+    from report_parts import figures_bed, figures_inside, figures_run, figures_settled
+    from report_parts import figures_time, page, study
 except ImportError as error:
     sys.exit(f"report.py: {error}. The report needs Debian's python3-matplotlib.")
 
@@ -41,17 +34,23 @@ FIGURES = {
     "bed-radial": figures_settled.bed_radial,
     "bed-janssen": figures_settled.bed_janssen,
     "monitors": figures_run.monitors,
+    "wall-forces": figures_time.wall_forces,
+    "particle-number": figures_time.particle_number,
+    "probes": figures_time.probes,
     "cost": figures_run.cost,
 }
 
 
 def make_figures(run, paper, folder):
-    """Every figure rendered, or the reason why it is not there, by name."""
+    """Every figure rendered, or the reason why it is not there, by name; None where the run
+    has nothing of the kind."""
     folder.mkdir(exist_ok=True)
     shown = {}
     for name, make in FIGURES.items():
         try:
             shown[name] = style.render(make(run, paper), name, folder)
+        except style.NotOfThisRun:
+            shown[name] = None
         except style.NothingToShow as reason:
             shown[name] = str(reason)
         # One figure that cannot be drawn from odd data must not take the
@@ -59,7 +58,7 @@ def make_figures(run, paper, folder):
         except Exception as error:
             shown[name] = f"{type(error).__name__}: {error}"
             run.notices.append(f"The figure {name} could not be drawn ({shown[name]}).")
-        if isinstance(shown[name], str):
+        if not isinstance(shown[name], style.Rendered):
             # A figure of an earlier report would pass for one of this run.
             (folder / f"{name}.png").unlink(missing_ok=True)
     return shown

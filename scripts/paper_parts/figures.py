@@ -4,26 +4,14 @@ import numpy as np
 from matplotlib.collections import EllipseCollection
 from matplotlib.patches import Rectangle
 
-from report_parts import figures_inside, reference
-from report_parts.style import (
-    BLACK,
-    BLUE,
-    GREEN,
-    GREY,
-    MILLI,
-    ORANGE,
-    PERCENT,
-    PURPLE,
-    VERMILLION,
-    column,
-    new_figure,
-    plot_cases,
-    velocity_axis,
-)
+from common import reference
+from common.particles import positions
+from common.style import BLACK, BLUE, GREEN, GREY, ORANGE, PURPLE, VERMILLION
+from common.style import MILLI, PERCENT, column, new_figure, plot_cases, velocity_axis
+from common.style import diamonds, note, shade_papers_band
+from report_parts import figures_inside
 
-from .particles import positions
 from .runs import fixed_cases, over, supported_drop
-
 
 SPHERE = np.array([0.36, 0.55, 0.72])
 # Diameter and offset over that of the sphere, brightness.
@@ -98,15 +86,8 @@ def pressure_profile(run):
     axes.plot(z, table["pressure"], color=BLUE, label="computed, section average")
     axes.plot(z, table["ergun_pressure"], "--", color=VERMILLION, label="Ergun, this bed")
     axes.axvline(case["bed_height"] * MILLI, color=GREY, linestyle=":", linewidth=1.0)
-    axes.annotate(
-        "top of the bed",
-        (case["bed_height"] * MILLI, 0.6 * table["pressure"].max()),
-        xytext=(-4, 0),
-        textcoords="offset points",
-        ha="right",
-        color=GREY,
-        fontsize=8,
-    )
+    top = (case["bed_height"] * MILLI, 0.6 * table["pressure"].max())
+    note(axes, "top of the bed", top, (-4, 0), GREY, ha="right")
     axes.set_xlabel("height over the bottom z [mm]")
     axes.set_ylabel("pressure over outlet [Pa]")
     axes.set_title(f"case 1, $V_s$ = {case['superficial_velocity']:.3f} m/s")
@@ -128,13 +109,12 @@ def bottom_force(light, heavy, paper):
         )
     axes.axhline(0.0, color=GREY, linewidth=0.9)
     axes.axvline(paper.onset_velocity, color=VERMILLION, linestyle=":", linewidth=1.1)
-    axes.annotate(
+    note(
+        axes,
         f"the paper's bed lifts:\n{paper.onset_bottom_force:.3f} N",
         (paper.onset_velocity, 0.6 * axes.get_ylim()[1]),
-        xytext=(4, 0),
-        textcoords="offset points",
-        color=VERMILLION,
-        fontsize=8,
+        (4, 0),
+        VERMILLION,
     )
     velocity_axis(axes)
     axes.set_ylabel("force on the bottom / weight [%]")
@@ -148,14 +128,7 @@ def pressure_drop(fixed, light, paper, more=()):
     axes = figure.subplots()
     smooth = np.linspace(0.2, 0.62, 100)
     axes.plot(smooth, reference.ergun_curve(fixed, smooth), color=GREY, label="Ergun, our bed")
-    axes.plot(
-        paper.velocity,
-        paper.ergun,
-        "D",
-        markerfacecolor="none",
-        markeredgecolor=VERMILLION,
-        label="Ergun, the paper's Table 1",
-    )
+    diamonds(axes, paper.velocity, paper.ergun, "Ergun, the paper's Table 1")
     plot_cases(
         axes, fixed.cases, column(fixed.cases, "pressure_drop"), BLUE, "computed, 2700 kg/m³"
     )
@@ -165,14 +138,7 @@ def pressure_drop(fixed, light, paper, more=()):
     for run, colour, label in more:
         plot_cases(axes, run.cases, column(run.cases, "pressure_drop"), colour, label, "^")
     axes.axhline(supported_drop(light), color=PURPLE, linestyle="--", linewidth=1.0)
-    axes.annotate(
-        "1100 kg/m³: weight over cross-section",
-        (0.2, supported_drop(light)),
-        xytext=(2, 3),
-        textcoords="offset points",
-        color=PURPLE,
-        fontsize=8,
-    )
+    note(axes, "1100 kg/m³: weight over cross-section", (0.2, supported_drop(light)), (2, 3))
     velocity_axis(axes)
     axes.set_ylabel("pressure drop [Pa]")
     axes.legend(loc="lower right")
@@ -184,14 +150,7 @@ def percent_error(run, paper, more=()):
     fraction, and how much of it the looser packing at the wall explains."""
     figure = new_figure(height=3.8)
     axes = figure.subplots()
-    band = np.array(paper.band) * PERCENT
-    axes.fill_between(
-        [paper.velocity[0], paper.velocity[-2]],
-        *band,
-        color="#DCDCDC",
-        linewidth=0,
-        label=f"the paper: {paper.band_in_words}",
-    )
+    shade_papers_band(axes, paper, f"the paper: {paper.band_in_words}")
     axes.axhline(0.0, color=GREY, linewidth=0.9)
     cases = fixed_cases(run)
     plot_cases(axes, cases, column(cases, "deviation_from_ergun") * PERCENT, BLUE, "whole bed")

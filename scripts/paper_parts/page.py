@@ -2,8 +2,8 @@
 
 import csv
 
-from report_parts.reference import PAPER_VESSEL, ergun_curve, paper_for
-from report_parts.style import MILLI, PERCENT
+from common.reference import PAPER_VESSEL, ergun_curve, paper_for
+from common.style import MILLI, PERCENT
 
 from .runs import (
     case_at,

@@ -1,14 +1,14 @@
 """The runs of scripts/reproduce-paper, and numbers that are taken from several cases."""
 
-import csv
 import math
 from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 
-from report_parts import reference
-from report_parts.run_output import read_run
+from common import reference
+from common.run_output import read_run
+from common.study_table import read_study
 
 # Fixed-bed cases: the fluid carries less than this part of the weight. Beyond, the bed
 # has begun to loosen.
@@ -40,13 +40,7 @@ class Runs:
 
     def study(self, name):
         """The rows of a study.csv, numbers as floats or None."""
-        with open(self.directory / name / "study.csv", newline="", encoding="utf-8") as file:
-            rows = list(csv.DictReader(file))
-        for row in rows:
-            for key, value in row.items():
-                if key != "quantity":
-                    row[key] = float(value) if value else None
-        return rows
+        return read_study(self.directory / name / "study.csv")
 
 
 def case_at(run, velocity):

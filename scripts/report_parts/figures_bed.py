@@ -2,26 +2,11 @@
 
 import numpy as np
 
-from . import reference
-from .style import (
-    BLACK,
-    BLUE,
-    GREEN,
-    GREY,
-    MILLI,
-    ORANGE,
-    PERCENT,
-    PURPLE,
-    VERMILLION,
-    NothingToShow,
-    colour_of_each,
-    column,
-    known,
-    need_cases,
-    new_figure,
-    plot_cases,
-    velocity_axis,
-)
+from common import reference
+from common.style import BLACK, BLUE, GREEN, GREY, ORANGE, PURPLE, VERMILLION
+from common.style import MILLI, PERCENT, NothingToShow, colour_of_each, column, known
+from common.style import diamonds, need_cases, new_figure, note, of_cases, plot_cases
+from common.style import shade_papers_band, velocity_axis
 
 
 def label_of(run, number):
@@ -33,6 +18,7 @@ def label_of(run, number):
     return f"case {number}: {case['superficial_velocity']:.3f} m/s{lifted}"
 
 
+@of_cases
 def pressure_profile(run, paper):
     """Section-averaged pressure along the axis against Ergun's line, and the void fraction."""
     if not run.profiles:
@@ -50,15 +36,8 @@ def pressure_profile(run, paper):
     if height is not None:
         for axes in (upper, lower):
             axes.axvline(height * MILLI, color=GREY, linestyle=":", linewidth=1.0)
-        lower.annotate(
-            "top of the bed at rest",
-            (height * MILLI, 0.1),
-            ha="right",
-            xytext=(-4, 0),
-            textcoords="offset points",
-            fontsize=7.5,
-            color=GREY,
-        )
+        top = (height * MILLI, 0.1)
+        note(lower, "top of the bed at rest", top, (-4, 0), GREY, 7.5, ha="right")
     upper.set_ylabel("pressure over outlet [Pa]")
     upper.set_ylim(bottom=min(0.0, upper.get_ylim()[0]))
     upper.legend(
@@ -75,6 +54,7 @@ def pressure_profile(run, paper):
     return figure
 
 
+@of_cases
 def pressure_drop(run, paper):
     """Pressure drop against superficial velocity: computed, Ergun, paper, weight per area."""
     need_cases(run.cases)
@@ -89,28 +69,14 @@ def pressure_drop(run, paper):
     own = column(run.cases, "ergun_pressure_drop")
     axes.plot(velocity, own, "_", color=BLACK, markersize=11, label="Ergun, bed of each case")
     if paper is not None:
-        axes.plot(
-            paper.velocity,
-            paper.ergun,
-            "D",
-            markersize=6.5,
-            markerfacecolor="none",
-            markeredgecolor=VERMILLION,
-            label=f"Ergun in the paper's Table 1 ({paper.scale}X)",
-        )
+        table_1 = f"Ergun in the paper's Table 1 ({paper.scale}X)"
+        diamonds(axes, paper.velocity, paper.ergun, table_1, markersize=6.5)
     plot_cases(axes, run.cases, column(run.cases, "pressure_drop"), BLUE, "computed")
     weight = reference.weight_per_area(run)
     if weight is not None:
         axes.axhline(weight, color=PURPLE, linestyle="--", linewidth=1.1)
-        axes.annotate(
-            "weight of the bed over the cross-section",
-            (0.0, weight),
-            xycoords=("axes fraction", "data"),
-            xytext=(4, 3),
-            textcoords="offset points",
-            fontsize=8,
-            color=PURPLE,
-        )
+        text = "weight of the bed over the cross-section"
+        note(axes, text, (0.0, weight), xycoords=("axes fraction", "data"))
     velocity_axis(axes)
     axes.set_xlim(0.0, 1.06 * last)
     axes.set_ylabel("pressure drop [Pa]")
@@ -137,17 +103,17 @@ def mark_outside(axes, cases, values, limits, colour):
         if not np.isfinite(value) or limits[0] <= value <= limits[1]:
             continue
         below = value < limits[0]
-        axes.annotate(
+        note(
+            axes,
             f"{'↓' if below else '↑'} {value:+.1f} %".replace("-", "−"),
             (case["superficial_velocity"], limits[0 if below else 1]),
-            xytext=(0, 4 if below else -10),
-            textcoords="offset points",
+            (0, 4 if below else -10),
+            colour,
             ha="center",
-            fontsize=8,
-            color=colour,
         )
 
 
+@of_cases
 def deviation(run, paper):
     """Relative deviation from Ergun: whole bed, middle half, and what the wall predicts."""
     need_cases(run.cases)
@@ -163,15 +129,7 @@ def deviation(run, paper):
     axes = figure.subplots()
     limits = limits_of_deviation(run.cases, values, paper)
     if paper is not None:
-        band = np.array(paper.band) * PERCENT
-        last_fixed = paper.velocity[-2]
-        axes.fill_between(
-            [paper.velocity[0], last_fixed],
-            *band,
-            color="#DCDCDC",
-            linewidth=0,
-            label=f"the paper, {paper.scale}X: {paper.band_in_words}",
-        )
+        shade_papers_band(axes, paper, f"the paper, {paper.scale}X: {paper.band_in_words}")
     axes.axhline(0.0, color=GREY, linewidth=0.9)
     for array, (_, colour, marker, line, label) in zip(values, curves):
         if known(array):
@@ -186,6 +144,7 @@ def deviation(run, paper):
     return figure
 
 
+@of_cases
 def bottom_force(run, paper):
     """What the bottom and the wall carry, and what the fluid leaves for them."""
     need_cases(run.cases)
@@ -200,21 +159,19 @@ def bottom_force(run, paper):
     velocity = column(run.cases, "superficial_velocity")
     if known(left):
         axes.plot(velocity, left, "--", color=GREY, linewidth=1.2, label="weight less fluid force")
-    if known(bottom) and known(wall):
+    supports = column(run.cases, "support_force")
+    if known(supports):
+        axes.plot(velocity, supports, "x", color=BLACK, markersize=6, label="all walls")
+    elif known(bottom) and known(wall):
         axes.plot(velocity, bottom + wall, "x", color=BLACK, markersize=6, label="bottom + wall")
     if known(bottom):
         plot_cases(axes, run.cases, bottom, BLUE, "bottom")
     if known(wall):
         plot_cases(axes, run.cases, wall, ORANGE, "wall", marker="s")
     if paper is not None:
-        axes.plot(
-            [paper.onset_velocity],
-            [paper.onset_bottom_force],
-            "D",
-            markersize=6.5,
-            markerfacecolor="none",
-            markeredgecolor=VERMILLION,
-            label=f"bottom in the paper at onset ({paper.scale}X)",
+        at_onset = f"bottom in the paper at onset ({paper.scale}X)"
+        diamonds(
+            axes, [paper.onset_velocity], [paper.onset_bottom_force], at_onset, markersize=6.5
         )
     velocity_axis(axes)
     axes.set_ylabel("contact force along the axis [N]")
@@ -222,6 +179,7 @@ def bottom_force(run, paper):
     return figure
 
 
+@of_cases
 def bed_height(run, paper):
     """Height of the bed, and how far it rose, against superficial velocity."""
     need_cases(run.cases)
@@ -235,15 +193,9 @@ def bed_height(run, paper):
     left.set_ylabel("bed height [mm]")
     plot_cases(right, run.cases, rise, BLUE, "computed")
     if paper is not None:
-        right.plot(
-            [paper.onset_velocity],
-            [paper.onset_rise * MILLI],
-            "D",
-            markersize=6.5,
-            markerfacecolor="none",
-            markeredgecolor=VERMILLION,
-            label=f"the paper at onset ({paper.scale}X)",
-        )
+        at_onset = f"the paper at onset ({paper.scale}X)"
+        rise_there = [paper.onset_rise * MILLI]
+        diamonds(right, [paper.onset_velocity], rise_there, at_onset, markersize=6.5)
     right.axhline(0.0, color=GREY, linewidth=0.9)
     right.set_ylabel("rise over the bed before the flow [mm]")
     right.legend(loc="upper left")

@@ -3,9 +3,11 @@
 import numpy as np
 from matplotlib.colors import Normalize
 
+from common.run_output import grid_of
+from common.style import BLACK, GREY, MILLI, NothingToShow, colour_of_each, known, new_figure
+from common.style import of_cases
+
 from .figures_bed import label_of
-from .run_output import grid_of
-from .style import BLACK, GREY, MILLI, NothingToShow, colour_of_each, known, new_figure
 
 MOST_PANELS = 7
 
@@ -90,11 +92,13 @@ def draw_field(axes, x, z, values, colour_map, norm):
     return image
 
 
+@of_cases
 def void_fraction(run, paper):
     """Void fraction on the plane y = 0."""
     return panels(run, "void_fraction", "viridis", void_fraction_range, "void fraction [-]")
 
 
+@of_cases
 def flux(run, paper):
     """Axial volumetric flux on the plane y = 0, over the superficial velocity."""
     return panels(
@@ -107,6 +111,7 @@ def flux(run, paper):
     )
 
 
+@of_cases
 def radial(run, paper):
     """Void fraction and axial flux against the distance from the wall."""
     if not run.radial:

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from .style import (
+from common.style import (
     BLUE,
     GREEN,
     GREY,
@@ -11,6 +11,7 @@ from .style import (
     PURPLE,
     VERMILLION,
     NothingToShow,
+    NotOfThisRun,
     known,
     new_figure,
 )
@@ -126,6 +127,8 @@ def draw_panel(axes, table, panel):
 
 def monitors(run, paper):
     """The monitors of every fluid step over time."""
+    if run.monitors is None and not run.has_flow():
+        raise NotOfThisRun("there is no flow")
     if run.monitors is None:
         raise NothingToShow("monitors.csv was not found, or holds no rows")
     if not known(run.monitors["time"]):

@@ -2,11 +2,14 @@
 
 import numpy as np
 
-from .style import BLACK, BLUE, GREY, MILLI, ORANGE, VERMILLION, NothingToShow, new_figure
+from common.style import BLACK, BLUE, GREY, MILLI, ORANGE, VERMILLION, NothingToShow, NotOfThisRun
+from common.style import known, new_figure
 
 
 def table_of(run, name):
     """The table NAME.csv of the run; throws NothingToShow without it."""
+    if not run.has_particles():
+        raise NotOfThisRun("there are no particles")
     table = run.bed.get(name)
     if table is None:
         raise NothingToShow(f"{name}.csv was not found, or holds no rows")
@@ -39,17 +42,20 @@ def bed_janssen(run, paper):
     figure = new_figure(height=3.8)
     left, right = figure.subplots(1, 2, sharey=True)
     load = np.where(table["load"] > 0.0, table["load"], np.nan)
+    if not known(load / table["stress"]):
+        raise NothingToShow("nothing stands on any plane of bed-janssen.csv")
     area = np.nanmedian(load / table["stress"])
     left.plot(table["weight"] / area, z, ":", color=GREY, label="without a wall")
     left.plot(table["stress"], z, color=BLUE, label="load over cross-section")
     friction = table["mobilised_friction"][0]
+    known_friction = f", $\\mu K$ = {friction:.3f}" if np.isfinite(friction) else ""
     left.plot(
         table["janssen_stress"],
         z,
         "--",
         color=VERMILLION,
         linewidth=1.2,
-        label=f"Janssen, $\\mu K$ = {friction:.3f}".replace("-", "\u2212"),
+        label=f"Janssen{known_friction}".replace("-", "\u2212"),
     )
     left.set_xlabel("vertical stress [Pa]")
     left.set_ylabel("height over the bottom z [mm]")

@@ -94,6 +94,10 @@ def captions(run, paper):
         "monitors": "<b>The run over time.</b> Every fluid step; shading and the names on top tell"
         " the phases, and the numbers the flow cases. Speeds, energies and imbalances are on"
         " logarithmic axes, without their zeros.",
+        "wall-forces": "<b>Force of the particles on each wall,</b> along the axis; positive"
+        " presses down.",
+        "particle-number": "<b>How many particles there are,</b> were fed and have left.",
+        "probes": "<b>What the probes saw,</b> each at its point.",
         "cost": f"<b>Where the time went.</b> {escape(words.cost_sentence(run, paper))}",
     }
 
@@ -141,7 +145,7 @@ SECTIONS = (
     ("Forces and lift", ("bottom-force", "bed-height")),
     ("Inside the bed", ("void-fraction", "flux", "radial")),
     ("The settled bed", ("bed-radial", "bed-janssen")),
-    ("Over time", ("monitors",)),
+    ("Over time", ("monitors", "wall-forces", "particle-number", "probes")),
     ("Cost", ("cost",)),
 )
 
@@ -151,6 +155,8 @@ def figures_of(names, figures, caption, count):
     lines = []
     for name in names:
         shown = figures[name]
+        if shown is None:
+            continue
         if isinstance(shown, str):
             heading = name.replace("-", " ").capitalize()
             lines.append(f'<p class="absent">{heading}: not shown; {escape(shown)}.</p>')
@@ -191,15 +197,19 @@ def cases_section(run, paper):
 
 
 def page(run, paper, figures):
-    """The whole report as HTML; a figure is a Rendered, or the reason why there is none."""
+    """The whole report as HTML; a figure is a Rendered, the reason why there is none, or None
+    where the run has nothing of the kind."""
     title = escape(title_of(run))
     caption = captions(run, paper)
     count = [0]
     body = [f"<h1>{title}</h1>", f'<p class="under">{escape(program_line(run))}</p>']
     body.append(f'<p class="summary">{escape(words.summary(run))}</p>')
     body += notices_of(run)
-    body += cases_section(run, paper)
+    if run.has_flow():
+        body += cases_section(run, paper)
     for heading, names in SECTIONS:
+        if all(figures[name] is None for name in names):
+            continue
         body.append(f"<h2>{heading}</h2>")
         body += figures_of(names, figures, caption, count)
         if heading == "Deviation from Ergun":

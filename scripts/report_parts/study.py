@@ -1,13 +1,14 @@
 """The report of a refinement study: its table, and how each quantity converges."""
 
-import csv
 from html import escape
 from pathlib import Path
 
 import numpy as np
 
+from common.style import BLACK, BLUE, GREY, PERCENT, VERMILLION, new_figure, render
+from common.study_table import read_study
+
 from . import page
-from .style import BLACK, BLUE, GREY, PERCENT, VERMILLION, new_figure, render
 
 # What a study varies, by the column that changes from level to level.
 SIZES = {
@@ -16,43 +17,34 @@ SIZES = {
     "filter_length": "filter length [m]",
     "time_step": "time step [s]",
 }
-NUMBERS = (
-    "cells",
-    "cell_size",
-    "time_step",
-    "value",
-    "error_or_change",
-    "observed_order",
-    "filter_length",
-    "extrapolated",
-    "grid_convergence_index",
-    "scale",
-    "standard_error",
-)
+FAILED = "failed"
 
 
-def read_study(path):
-    """The rows of study.csv by quantity, in the order of the file; numbers as floats."""
+def by_quantity(rows):
+    """The rows of each quantity, from the coarsest level to the finest; those of a study that
+    knows no quantity, as every level failed, have the name ""."""
     quantities = {}
-    with open(path, newline="", encoding="utf-8") as file:
-        for row in csv.DictReader(file):
-            for key in NUMBERS:
-                row[key] = float(row[key]) if row[key] else None
-            quantities.setdefault(row["quantity"], []).append(row)
+    for row in rows:
+        quantities.setdefault(row["quantity"], []).append(row)
     return quantities
+
+
+def computed(rows):
+    """The levels that have a value."""
+    return [row for row in rows if row["value"] is not None]
 
 
 def what_varies(rows):
     """The column of sizes that differs between the levels."""
     for key in ("scale", "time_step", "filter_length", "cell_size"):
-        if len({row[key] for row in rows}) > 1:
+        if len({row[key] for row in rows if row[key] is not None}) > 1:
             return key
     return "cell_size"
 
 
 def is_error(rows):
     """Whether the quantity is an error itself: its exact value is 0."""
-    return all(row["value"] == row["error_or_change"] for row in rows)
+    return all(row["value"] == row["error_or_change"] for row in computed(rows))
 
 
 def error_figure(quantity, rows, key):
@@ -82,10 +74,14 @@ def value_figure(quantity, rows, key):
     last = rows[-1]
     if key == "scale":
         axes.errorbar(
-            size, value, yerr=[row["standard_error"] for row in rows], fmt="none", color=BLUE
+            size,
+            value,
+            yerr=[row["standard_error"] or 0.0 for row in rows],
+            fmt="none",
+            color=BLUE,
         )
         if last["extrapolated"] is not None:
-            spread = abs(last["extrapolated"]) * last["grid_convergence_index"]
+            spread = abs(last["extrapolated"]) * (last["grid_convergence_index"] or 0.0)
             axes.errorbar(
                 [1.0],
                 [last["extrapolated"]],
@@ -126,10 +122,10 @@ def table(rows, key):
     for row in rows:
         index = row["grid_convergence_index"]
         entries = (
-            row["level"],
+            cell(row["level"], ".0f"),
             cell(row["cells"], ".0f"),
             cell(row[key], ".4g"),
-            cell(row["value"], ".6g"),
+            FAILED if row.get("status") == FAILED else cell(row["value"], ".6g"),
             cell(row["error_or_change"], ".3g"),
             cell(row["observed_order"], ".2f"),
             cell(row["extrapolated"], ".6g"),
@@ -142,9 +138,36 @@ def table(rows, key):
     )
 
 
+def figure_of(quantity, rows, key):
+    """How a quantity converges; None if fewer than two levels have a value."""
+    shown = [row for row in computed(rows) if row[key] is not None]
+    if len(shown) < 2:
+        return None
+    make = error_figure if is_error(rows) else value_figure
+    return make(quantity, shown, key)
+
+
+def section(number, quantity, rows, folder):
+    """Heading, table and figure of a quantity, as lines of HTML."""
+    key = what_varies(rows)
+    name = quantity or "No level was computed"
+    lines = [f"<h2>{escape(name)}</h2>", table(rows, key)]
+    failed = [f"{row['level']:.0f}" for row in rows if row.get("status") == FAILED]
+    if failed:
+        lines.append(
+            f'<p class="note">Failed: level {", ".join(failed)} (log.txt says why). No change,'
+            " order or extrapolation is computed across it.</p>"
+        )
+    figure = figure_of(quantity, rows, key)
+    if figure is not None:
+        shown = render(figure, f"study-{number}", folder)
+        lines.append(f'<figure><img alt="{escape(name)}" src="{shown.data_uri}"></figure>')
+    return lines
+
+
 def write_report(directory):
     """Writes the report of the study in @p directory."""
-    quantities = read_study(directory / "study.csv")
+    quantities = by_quantity(read_study(directory / "study.csv"))
     folder = directory / "figures"
     folder.mkdir(exist_ok=True)
     title = f"Graupel: study in {escape(Path(directory).resolve().name)}"
@@ -154,12 +177,7 @@ def write_report(directory):
         " Celik et al. (2008). Changes are relative, from one level to the next.</p>"
     )
     for number, (quantity, rows) in enumerate(quantities.items(), start=1):
-        key = what_varies(rows)
-        make = error_figure if is_error(rows) else value_figure
-        shown = render(make(quantity, rows, key), f"study-{number}", folder)
-        body.append(f"<h2>{escape(quantity)}</h2>")
-        body.append(table(rows, key))
-        body.append(f'<figure><img alt="{escape(quantity)}" src="{shown.data_uri}"></figure>')
+        body += section(number, quantity, rows, folder)
     body.append(
         "<footer>The numbers are in study.csv; each level has its files in level-N, where"
         " scripts/report.py makes a report of it.</footer>"

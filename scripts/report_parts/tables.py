@@ -4,7 +4,9 @@ from html import escape
 
 import numpy as np
 
-from . import reference, words
+from common import reference
+
+from . import words
 
 NO_CASES = '<p class="absent">No flow case was found.</p>'
 
@@ -99,11 +101,14 @@ def forces_and_cost(run):
 
 
 def imbalance(case):
-    """Bottom, wall and fluid less the weight, over the weight; None if one is unknown."""
-    forces = [case[key] for key in ("bottom_force", "wall_force", "fluid_force", "weight")]
-    if any(force is None for force in forces) or forces[3] == 0.0:
+    """What walls and fluid carry less the weight, over the weight; None if one is unknown."""
+    keys = ["bottom_force", "wall_force"]
+    if case.get("support_force") is not None:
+        keys = ["support_force"]  # of all walls, bottom and lateral one among them
+    forces = [case[key] for key in (*keys, "fluid_force", "weight")]
+    if any(force is None for force in forces) or forces[-1] == 0.0:
         return None
-    return (sum(forces[:3]) - forces[3]) / forces[3]
+    return (sum(forces[:-1]) - forces[-1]) / forces[-1]
 
 
 def papers_values(run, paper):

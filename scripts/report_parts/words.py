@@ -1,6 +1,6 @@
 """Numbers and findings as text."""
 
-from . import reference
+from common import reference
 
 NONE = "-"
 MINUS = "\u2212"
@@ -62,6 +62,8 @@ def the_bed(run):
     diameter = run.number("bed", "particle_diameter")
     original = run.number("bed", "original_diameter")
     scale = run.number("bed", "scale")
+    if not run.has_particles():
+        return "There are no particles."
     if count is None and diameter is None:
         return "summary.json says nothing about the bed."
     text = f"The bed holds {number(count, ',.0f')} spheres of {number(diameter, '.2f', 1e3, 'mm')}"
@@ -73,6 +75,8 @@ def the_bed(run):
     vessel = run.number("bed", "vessel_diameter")
     if vessel is not None:
         text += f", in a vessel {number(vessel, '.4g', 1e3, 'mm')} wide"
+    if run.number("bed", "height") is None:
+        return f"{text}. A height of the bed before the flow is not known."
     text += (
         f". Before the flow it is {number(run.number('bed', 'height'), '.1f', 1e3, 'mm')} high,"
         f" with a mean void fraction of {number(run.number('bed', 'mean_void_fraction'), '.4f')}"

@@ -1,10 +1,10 @@
 #include <graupel/base/parameter_entries.h>
 #include <graupel/base/parameters.h>
+#include <graupel/base/read_numbers.h>
 
 #include <deal.II/base/exceptions.h>
 
 #include <boost/algorithm/string/join.hpp>
-#include <boost/lexical_cast/try_lexical_convert.hpp>
 
 #include <algorithm>
 #include <filesystem>
@@ -80,7 +80,19 @@ namespace graupel
       return result;
     }
 
-    // Joins continued lines and drops the comment; false at the end of the text.
+    // Where a comment begins: at a # that is first in the line or behind a blank, so
+    // that "run#1" is a name. npos if there is none.
+    std::size_t
+    begin_of_comment(const std::string &line)
+    {
+      for (auto at = line.find('#'); at != std::string::npos; at = line.find('#', at + 1))
+        if (at == 0 || line[at - 1] == ' ' || line[at - 1] == '\t')
+          return at;
+      return std::string::npos;
+    }
+
+    // The next statement: lines joined where a backslash ends one, each without its
+    // comment. A backslash within a comment continues nothing. False at the end.
     bool
     next_statement(std::istream &stream,
                    std::string  &statement,
@@ -92,23 +104,26 @@ namespace graupel
       for (std::string line; std::getline(stream, line);)
         {
           ++lines_read;
-          if (!line.empty() && line.back() == '\r')
-            line.pop_back();
-          const bool continued = !line.empty() && line.back() == '\\';
+          std::string text      = trimmed(line.substr(0, begin_of_comment(line)));
+          const bool  continued = !text.empty() && text.back() == '\\';
           if (continued)
-            line.pop_back();
-          statement +=
-            lines_read == first_line
-              ? line
-              : line.substr(std::min(line.find_first_not_of(" \t"), line.size()));
+            text.pop_back();
+          statement += text;
           if (!continued)
-            {
-              statement = trimmed(statement.substr(0, statement.find('#')));
-              return true;
-            }
+            break;
         }
-      statement = trimmed(statement.substr(0, statement.find('#')));
+      statement = trimmed(statement);
       return lines_read >= first_line;
+    }
+
+    // Whether a parameter file can hold the value so that it is read back as it is.
+    bool
+    survives_in_file(const std::string &value)
+    {
+      // As it stands there: behind "set name = ".
+      return begin_of_comment(' ' + value) == std::string::npos &&
+             value.find_first_of("\r\n") == std::string::npos &&
+             (value.empty() || value.back() != '\\');
     }
 
     /**
@@ -136,11 +151,21 @@ namespace graupel
                                     ? "this parameter file"
                                     : "the included file " + in_quotes(file_name);
 
-        std::ifstream stream(file_name);
-        if (!stream || std::filesystem::is_directory(file_name))
+        // Looked at before it is opened: /dev/zero never ends, a pipe may never begin.
+        std::error_code none;
+        const auto      kind = std::filesystem::status(file_name, none).type();
+        std::ifstream   stream;
+        if (kind == std::filesystem::file_type::regular ||
+            (kind == std::filesystem::file_type::fifo && asked_by.empty()))
+          stream.open(file_name);
+        if (!stream.is_open())
           refuse(where, "cannot read " + what + "; is the path right?");
-        if (std::find(open_files.begin(), open_files.end(), file_name) !=
-            open_files.end())
+
+        // By another path (a link, "./") it is still the same file.
+        const auto is_the_same = [&](const std::string &open) {
+          return std::filesystem::equivalent(open, file_name, none);
+        };
+        if (std::any_of(open_files.begin(), open_files.end(), is_the_same))
           refuse(where,
                  what + " is still being read: files include each other in a circle");
         open_files.push_back(file_name);
@@ -270,8 +295,7 @@ namespace graupel
   {
     if (std::find(words.begin(), words.end(), text) != words.end())
       return {};
-    double value;
-    if (boost::conversion::try_lexical_convert(text, value))
+    if (const auto value = number_in(text))
       return value;
     throw InputError(parameter,
                      in_quotes(text) + " is neither a number nor " +
@@ -357,6 +381,13 @@ namespace graupel
       fitted = absolute_path(value, origin);
     if (pattern.rfind("[List of <[FileName", 0) == 0)
       fitted = absolute_paths(value, origin);
+
+    if (!survives_in_file(fitted))
+      refuse(origin,
+             path + " = " + fitted +
+               ": no parameter file can hold this value, in which a # behind a blank "
+               "begins a comment and a backslash at the end continues the line; choose "
+               "another name");
 
     // deal.II would take a negative number for an unsigned one, modulo 2^32.
     bool fits = !(pattern == "[Integer]" && value.find('-') != std::string::npos);

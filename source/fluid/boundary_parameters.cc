@@ -25,16 +25,43 @@ namespace graupel
                               {"no-slip", BoundaryCondition::no_slip, 0},
                               {"slip", BoundaryCondition::slip, 0}};
 
+    // Whether @p text is @p word, or goes on behind it after a blank.
+    bool
+    begins_with_word(const std::string &text, const std::string &word)
+    {
+      return text.compare(0, word.size(), word) == 0 &&
+             (text.size() == word.size() || text[word.size()] == ' ' ||
+              text[word.size()] == '\t');
+    }
+
+    // Whether an expression is a number at one place at least: one that holds within the
+    // vessel only may not be at all.
+    bool
+    is_finite_somewhere(dealii::FunctionParser<3> &function, const unsigned int component)
+    {
+      for (const double t : {0., 1e-2, 1.})
+        for (const double x : {1e-3, -1e-3, 1e-2, 0.1, 1.})
+          {
+            function.set_time(t);
+            if (std::isfinite(
+                  function.value(dealii::Point<3>(x, 2. * x, 3. * x), component)))
+              return true;
+          }
+      return false;
+    }
+
     void
     try_expressions(const std::vector<std::string> &expressions,
                     const std::string              &parameter)
     {
+      dealii::FunctionParser<3> function(expressions.size());
+      std::vector<bool>         are_finite;
       try
         {
-          dealii::FunctionParser<3> function(expressions.size());
           function.initialize(
             "x,y,z,t", expressions, {{"V", 1.}, {"pi", dealii::numbers::PI}}, true);
-          function.value(dealii::Point<3>(1e-3, 2e-3, 3e-3), 0);
+          for (unsigned int c = 0; c < expressions.size(); ++c)
+            are_finite.push_back(is_finite_somewhere(function, c));
         }
       catch (const std::exception &)
         {
@@ -43,6 +70,10 @@ namespace graupel
             "an expression cannot be read; it may hold x, y, z [m], t [s], "
             "V (the superficial velocity of the flow case) and pi");
         }
+      for (unsigned int c = 0; c < expressions.size(); ++c)
+        require(are_finite[c],
+                parameter,
+                "the expression \"" + expressions[c] + "\" has no finite value");
     }
   } // namespace
 
@@ -53,7 +84,7 @@ namespace graupel
     for (const Word &word : words)
       {
         const std::string name = word.text;
-        if (trimmed.compare(0, name.size(), name) != 0)
+        if (!begins_with_word(trimmed, name))
           continue;
         BoundaryCondition result;
         result.kind        = word.kind;

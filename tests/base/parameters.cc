@@ -32,6 +32,9 @@ namespace
       handler.add_parameter("velocities", velocities, "Flow cases [m/s].");
       handler.leave_subsection();
       handler.leave_subsection();
+      handler.enter_subsection("Output");
+      handler.add_parameter("name", name, "Any text.", dealii::Patterns::Anything());
+      handler.leave_subsection();
     }
 
     dealii::ParameterHandler handler;
@@ -40,6 +43,7 @@ namespace
     std::string              scaling  = "exact";
     double                   length   = 1.6e-3;
     std::vector<double>      velocities{0.271};
+    std::string              name = "output";
   };
 
   // What the user reads when @p text is in the file case.prm; "" if all is well.
@@ -137,7 +141,8 @@ TEST(ParameterFile, KnowsEveryDeclaredPath)
                                       "Coupling/Filter/velocities",
                                       "Coupling/scaling",
                                       "Geometry/diameter",
-                                      "Geometry/layers"}));
+                                      "Geometry/layers",
+                                      "Output/name"}));
 }
 
 TEST(ParameterFile, SaysWhereAValueCameFrom)
@@ -150,18 +155,113 @@ TEST(ParameterFile, SaysWhereAValueCameFrom)
   EXPECT_EQ(explained(), "Geometry/diameter = 0.025 (the default): no bed fits");
 
   // A continued line above shifts no number: a statement counts by its first line.
-  std::istringstream stream("# continued \\\n comment\n\n"
-                            "subsection Geometry\n"
+  std::istringstream stream("\n"
+                            "subsection \\\n Geometry\n"
                             "set diameter = \\\n 0.0015\n"
                             "end\n");
   file.read(stream, "case.prm");
-  EXPECT_EQ(explained(), "case.prm:5: Geometry/diameter = 0.0015: no bed fits");
+  EXPECT_EQ(explained(), "case.prm:4: Geometry/diameter = 0.0015: no bed fits");
 
   file.set("Geometry/diameter=0.0014");
   EXPECT_EQ(explained(), "--set: Geometry/diameter = 0.0014: no bed fits");
 
   EXPECT_EQ(file.explain(InputError("Time/end", "is before the start")),
             "Time/end: is before the start");
+}
+
+TEST(ParameterFile, ABackslashWithinACommentContinuesNothing)
+{
+  Declared           declared;
+  ParameterFile      file(declared.handler);
+  std::istringstream stream("subsection Geometry\n"
+                            "  # in the folder C:\\beds\\\n"
+                            "  set diameter = 0.05\n"
+                            "  set layers = 7 # as in C:\\beds\\\n"
+                            "end\n"
+                            "subsection Coupling\n"
+                            "  set scaling = none\n"
+                            "  subsection Filter\n"
+                            "    set velocities = 0.1, \\  # the first\n"
+                            "                     0.2, \\ \n"
+                            "                     0.3    # the last \\\n"
+                            "    set length = 2e-3\n"
+                            "  end\n"
+                            "end\n");
+  file.read(stream, "case.prm");
+  EXPECT_EQ(declared.diameter, 0.05);
+  EXPECT_EQ(declared.layers, 7u);
+  EXPECT_EQ(declared.scaling, "none");
+  EXPECT_EQ(declared.velocities, (std::vector<double>{0.1, 0.2, 0.3}));
+  EXPECT_EQ(declared.length, 2e-3);
+}
+
+TEST(ParameterFile, ACommentBeginsBehindABlank)
+{
+  const auto name_from = [](const std::string &value) {
+    Declared           declared;
+    ParameterFile      file(declared.handler);
+    std::istringstream stream("subsection Output\nset name = " + value + "\nend\n");
+    file.read(stream, "case.prm");
+    return declared.name;
+  };
+  EXPECT_EQ(name_from("run#1"), "run#1");
+  EXPECT_EQ(name_from("run#1 # the first"), "run#1");
+  EXPECT_EQ(name_from("run\t#1"), "run");
+  EXPECT_EQ(name_from("#1"), "");
+  EXPECT_EQ(complaint("subsection Geometry\nset layers = 3#\nend\n"),
+            "case.prm:2: Geometry/layers = 3#: expected a whole number, 0 or more");
+}
+
+// What the program writes into the directory of a run repeats the run.
+TEST(ParameterFile, ReadsWhatIsPrinted)
+{
+  for (const std::string name : {"run#1",
+                                 "a;b; c",
+                                 "a = b",
+                                 "= b",
+                                 "a##b",
+                                 "back\\slash",
+                                 "two  blanks",
+                                 "end",
+                                 "plane 1",
+                                 ""})
+    {
+      Declared      written;
+      ParameterFile file(written.handler);
+      file.set("Output/name=" + name);
+      file.set("Geometry/diameter=0.0123456789012345678");
+      file.set("Coupling/Filter/velocities=0.1, 1e-7");
+      std::stringstream text;
+      written.handler.print_parameters(text,
+                                       dealii::ParameterHandler::PRM |
+                                         dealii::ParameterHandler::KeepDeclarationOrder);
+
+      Declared declared;
+      ParameterFile(declared.handler).read(text, "parameters.prm");
+      EXPECT_EQ(written.name, name);
+      EXPECT_EQ(declared.name, name);
+      EXPECT_EQ(declared.diameter, written.diameter);
+      EXPECT_EQ(declared.velocities, written.velocities);
+    }
+}
+
+TEST(ParameterFile, RefusesWhatNoFileCanHold)
+{
+  for (const std::string name : {"a #1", "a\t#1", "#1", "a\\", "a\nb"})
+    EXPECT_NE(complaint_about_override("Output/name=" + name)
+                .find("--set: Output/name = " + name + ": no parameter file can hold"),
+              std::string::npos)
+      << complaint_about_override("Output/name=" + name);
+}
+
+TEST(ParameterFile, TheLaterSettingWins)
+{
+  Declared           declared;
+  ParameterFile      file(declared.handler);
+  std::istringstream stream("subsection Geometry\nset layers = 3\nset layers = 5\nend\n"
+                            "subsection Geometry\nset layers = 4\nend\n");
+  file.read(stream, "case.prm");
+  EXPECT_EQ(declared.layers, 4u);
 }
 
 TEST(ParameterFile, ProposesTheNearestName)
@@ -188,6 +288,16 @@ TEST(ParameterFile, SaysWhatAValueMustBe)
             "case.prm:2: Geometry/diameter = wide: expected a number");
   EXPECT_EQ(in_geometry("set diameter = nan"),
             "case.prm:2: Geometry/diameter = nan: expected a number");
+  EXPECT_EQ(in_geometry("set diameter = inf"),
+            "case.prm:2: Geometry/diameter = inf: expected a number");
+  EXPECT_EQ(in_geometry("set diameter = 1e400"),
+            "case.prm:2: Geometry/diameter = 1e400: expected a number");
+  EXPECT_EQ(in_geometry("set layers = 5000000000"),
+            "case.prm:2: Geometry/layers = 5000000000: expected a whole number, 0 or "
+            "more");
+  EXPECT_EQ(complaint_about_override("Coupling/Filter/velocities=0.1, nan"),
+            "--set: Coupling/Filter/velocities = 0.1, nan: expected a list separated by "
+            "\",\", each element a number");
   EXPECT_EQ(in_geometry("set diameter = 0,025"),
             "case.prm:2: Geometry/diameter = 0,025: expected a number");
   EXPECT_EQ(in_geometry("set diameter = 0.025 m"),
@@ -274,6 +384,25 @@ TEST_F(Files, UnreadableFilesAreNamed)
             circle + ":1: the included file \"" + circle +
               "\" is still being read: files include each other in a circle");
 
+  // The same file by other paths.
+  for (const std::string path : {"./again.prm", "parts/../again.prm", "parts/link.prm"})
+    {
+      const std::string again = write("again.prm", "\ninclude " + path + "\n");
+      std::filesystem::remove(folder / "parts/link.prm");
+      std::filesystem::create_symlink(again, folder / "parts/link.prm");
+      EXPECT_EQ(sentence(again),
+                again + ":2: the included file \"" + (folder / path).string() +
+                  "\" is still being read: files include each other in a circle");
+    }
+  // What is no file, and would not end.
+  for (const std::string path : {"parts", "/dev/zero", "/dev/null"})
+    {
+      const std::string odd = write("odd.prm", "include " + path + "\n");
+      EXPECT_EQ(sentence(odd),
+                odd + ":1: cannot read the included file \"" + (folder / path).string() +
+                  "\"; is the path right?");
+    }
+
   const std::string open = write("open.prm", "subsection Geometry\n");
   EXPECT_EQ(sentence(write("opens.prm", "include open.prm\nend\n")),
             open +
@@ -294,6 +423,14 @@ TEST(Require, FailsOnNaN)
       EXPECT_EQ(error.parameter, "Geometry/diameter");
       EXPECT_STREQ(error.what(), "Geometry/diameter: a length is positive");
     }
+}
+
+TEST(NumberOrWord, TakesNoOtherWord)
+{
+  EXPECT_EQ(number_or_word("A/b", "auto", {"auto"}), std::nullopt);
+  EXPECT_EQ(number_or_word("A/b", "1e-3", {"auto"}), 1e-3);
+  for (const char *text : {"nan", "inf", "-inf", "1e-3 m", "", "Auto"})
+    EXPECT_THROW(number_or_word("A/b", text, {"auto"}), InputError) << text;
 }
 
 TEST(NearestName, HasTheLeastEditDistance)

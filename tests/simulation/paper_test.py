@@ -15,8 +15,9 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "scripts"))
 
 import numpy as np
 
-from paper_parts import particles, runs
-from report_parts.run_output import RunOutput
+from common import particles
+from common.run_output import RunOutput
+from paper_parts import runs
 
 AREA = math.pi * 0.025**2 / 4.0
 A, B, WEIGHT = 700.0, 1700.0, 0.48

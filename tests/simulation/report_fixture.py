@@ -6,7 +6,8 @@ import math
 
 import numpy as np
 
-from report_parts import figures_run, reference, run_output
+from common import reference, run_output
+from report_parts import figures_run
 
 VESSEL = 25e-3
 AREA = math.pi * VESSEL**2 / 4.0
@@ -90,6 +91,24 @@ def write_csv(path, header, rows):
         csv.writer(file).writerows([header, *rows])
 
 
+FURTHER_MONITORS = (
+    "nominal_velocity",
+    "bed_bottom",
+    "support_force",
+    "particles",
+    "departed_particles",
+    "fed_particles",
+    "force_bottom",
+    "force_left door",
+)
+
+
+def what_further_monitors_say(step):
+    """Their values; the bed has no bottom in every other row."""
+    bottom = "" if step % 2 else 0.0
+    return [0.3, bottom, 0.4, 20997 - step, step, 0, 0.1, 0.05]
+
+
 def write_run(directory, scale=1.0, vessel=VESSEL, steps=60):
     """A complete output directory with one fixed-bed case and one lifted one."""
     cases = [one_case(0.271, False), one_case(0.534, True)]
@@ -103,8 +122,14 @@ def write_run(directory, scale=1.0, vessel=VESSEL, steps=60):
     phases = [("fill", 0), ("settle", 0), ("flow", 1), ("flow", 2)]
     numbers = [0.3, 400.0, HEIGHT, 0.1, 0.2, 0.2, 1e-9, 1e-3, 1e-11, 1e-13, 0.0, 12]
     numbers += [2496, 1e-12, 1e-4]
-    rows = [[step * 1e-3, *phases[4 * step // steps], *numbers] for step in range(steps)]
-    write_csv(directory / "monitors.csv", run_output.MONITOR_COLUMNS, rows)
+    rows = [
+        [step * 1e-3, *phases[4 * step // steps], *numbers, *what_further_monitors_say(step)]
+        for step in range(steps)
+    ]
+    write_csv(directory / "monitors.csv", run_output.MONITOR_COLUMNS + FURTHER_MONITORS, rows)
+    probed = ("time", "inlet_pressure", "far_side_pressure", "inlet_velocity_z")
+    rows = [[step * 1e-3, 400.0 - step, 10.0, 0.3 if step else ""] for step in range(steps)]
+    write_csv(directory / "probes.csv", probed, rows)
     for number, case in enumerate(cases, start=1):
         z = np.linspace(0.0, 0.169, 40)
         fall = np.maximum(0.0, 1.0 - z / HEIGHT)

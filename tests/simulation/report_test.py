@@ -18,7 +18,8 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "scripts"))
 import numpy as np
 
 import report
-from report_parts import figures_inside, figures_run, page, reference, run_output, words
+from common import reference, run_output, style
+from report_parts import figures_inside, figures_run, figures_time, page, words
 from report_fixture import DENSITY, VESSEL, VISCOSITY, one_case, summary_of, write_run
 
 
@@ -184,6 +185,116 @@ class MissingPieces(ReportTest):
         stale.write_bytes(b"of an earlier run")
         make_report(self.directory)
         self.assertFalse(stale.exists())
+
+
+class OddRuns(ReportTest):
+    """Runs without what a packed bed has: each has its report, and nothing is said to miss."""
+
+    def report_of_changed(self, change):
+        """The page of the complete run with a changed summary, without its images."""
+        self.edit_summary(change)
+        status, text, errors = make_report(self.directory)
+        self.assertEqual((status, errors), (0, ""))
+        words = re.sub(r'src="[^"]*"', "", text)
+        self.assertNotRegex(words, r"\b(nan|None|inf)\b")
+        return words
+
+    def test_without_flow(self):
+        write_run(self.directory)
+        for path in self.directory.glob("*-0*.csv"):
+            path.unlink()
+        (self.directory / "cases.csv").unlink()
+        (self.directory / "monitors.csv").unlink()
+        (self.directory / "probes.csv").unlink()
+        text = self.report_of_changed(lambda summary: summary.update(cases=[]))
+        self.assertIn('id="bed-janssen"', text)
+        for absent in ("Pressure", "Cases", "Over time", "No flow case"):
+            self.assertNotIn(f"<h2>{absent}", text)
+
+    def test_without_particles(self):
+        write_run(self.directory)
+        for path in self.directory.glob("bed-*.csv"):
+            path.unlink()
+
+        def empty(summary):
+            summary["bed"].update({key: None for key in summary["bed"]})
+            summary["bed"]["particle_count"] = 0
+            of_bed = ("ergun_pressure_drop", "deviation_from_ergun", "bed_height", "bed_rise",
+                      "gradient_deviation_from_ergun", "wall_channelling_deviation",
+                      "mean_void_fraction", "bottom_force", "wall_force", "weight",
+                      "fluidized")  # fmt: skip
+            for case in summary["cases"]:
+                case.update({key: None for key in of_bed})
+
+        text = self.report_of_changed(empty)
+        self.assertIn("There are no particles.", text)
+        self.assertIn('id="pressure-drop"', text)
+        self.assertNotIn("The settled bed", text)
+
+    def test_a_bed_that_no_wall_is_known_to_carry(self):
+        write_run(self.directory)
+
+        def on_a_plane(summary):
+            for case in summary["cases"]:
+                case.update(bottom_force=0.0, wall_force=None, support_force=0.2,
+                            fluid_force=0.28, weight=0.48)  # fmt: skip
+
+        self.assertIn("<td>0.00</td>", self.report_of_changed(on_a_plane))
+
+    def test_columns_that_are_all_empty(self):
+        write_run(self.directory)
+        for name in ("monitors.csv", "probes.csv", "profiles-01.csv", "bed-janssen.csv"):
+            path = self.directory / name
+            header, *rows = path.read_text(encoding="utf-8").splitlines()
+            kept = 3 if name == "monitors.csv" else 1
+            rows = [",".join(row.split(",")[:kept]) + "," * (header.count(",") + 1 - kept)
+                    for row in rows]  # fmt: skip
+            path.write_text("\n".join([header, *rows]), encoding="utf-8")
+        status, text, errors = make_report(self.directory)
+        self.assertEqual((status, errors), (0, ""))
+        self.assertIn("Bed janssen: not shown", text)
+        self.assertNotIn('id="probes"', text)
+        self.assertNotIn('id="particle-number"', text)
+
+    def test_a_number_that_only_filling_changes_is_not_drawn(self):
+        write_run(self.directory)
+        run = run_output.read_run(self.directory)
+        filled = run.monitors["phase"] != "fill"
+        for name in figures_time.NUMBERS:
+            run.monitors[name][filled] = 7.0
+        with self.assertRaises(style.NotOfThisRun):
+            figures_time.particle_number(run, None)
+
+
+class Study(ReportTest):
+    """The report of a study, some of whose levels have failed."""
+
+    HEADER = (
+        "level,cells,cell_size,time_step,quantity,value,error_or_change,observed_order,"
+        "filter_length,extrapolated,grid_convergence_index,scale,standard_error,status\n"
+    )
+
+    def report_of(self, rows):
+        (self.directory / "study.csv").write_text(self.HEADER + rows, encoding="utf-8")
+        status, text, _ = make_report(self.directory)
+        self.assertEqual(status, 0)
+        return re.sub(r'src="[^"]*"', "", text)
+
+    def test_a_failed_level_is_a_hole(self):
+        text = self.report_of(
+            "1,100,4e-3,1e-3,drop [Pa],10,,,1e-3,,,1,0,finished\n"
+            "2,,2e-3,,drop [Pa],,,,,,,,,failed\n"
+            "3,6400,1e-3,1e-3,drop [Pa],9,,,1e-3,,,1,0,finished\n"
+        )
+        self.assertIn("<td>failed</td>", text)
+        self.assertIn("Failed: level 2 (log.txt says why)", text)
+        self.assertIn("<figure>", text)
+
+    def test_every_level_failed(self):
+        text = self.report_of("1,,,5e-3,,,,,,,,,,failed\n2,,,2e-3,,,,,,,,,,failed\n")
+        self.assertIn("No level was computed", text)
+        self.assertIn("Failed: level 1, 2", text)
+        self.assertNotIn("<figure>", text)
 
 
 class Comparison(ReportTest):

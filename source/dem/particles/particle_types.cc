@@ -1,4 +1,5 @@
 #include <graupel/base/parameters.h>
+#include <graupel/base/read_numbers.h>
 #include <graupel/dem/particles/particle_arrays.h>
 #include <graupel/dem/particles/particle_types.h>
 
@@ -55,13 +56,25 @@ namespace graupel
       return;
     if (kind == "list")
       {
-        require(!shares().empty(),
-                section + "/size list",
-                "write diameters and shares, \"1e-3: 0.4, 2e-3: 0.6\"");
-        for (const auto &share : shares())
-          require(share.diameter > 0. && share.share >= 0.,
-                  section + "/size list",
-                  "diameters are positive, in metres, and shares not negative");
+        const std::string parameter = section + "/size list";
+        const std::string advice = "write diameters and shares, \"1e-3: 0.4, 2e-3: 0.6\"";
+        const auto        entries = dealii::Utilities::split_string_list(list);
+        require(!entries.empty(), parameter, advice);
+        double total = 0.;
+        for (const std::string &entry : entries)
+          {
+            const auto share = read_share(entry);
+            require(share.has_value(),
+                    parameter,
+                    '"' + entry + "\" is not a diameter and its share; " + advice);
+            require(share->diameter > 0. && share->share >= 0.,
+                    parameter,
+                    "diameters are positive, in metres, and shares not negative");
+            total += share->share;
+          }
+        require(total > 0. && std::isfinite(total),
+                parameter,
+                "the shares are together nothing, or too much for a number");
         return;
       }
     require(kind == "uniform" || deviation > 0.,
@@ -78,6 +91,18 @@ namespace graupel
             "the largest diameter lies below the smallest");
   }
 
+  std::optional<SizeDistribution::Share>
+  SizeDistribution::read_share(const std::string &entry)
+  {
+    const auto texts = dealii::Utilities::split_string_list(entry, ':');
+    if (texts.size() != 2)
+      return {};
+    const auto diameter = number_in(texts[0]), share = number_in(texts[1]);
+    if (!diameter || !share)
+      return {};
+    return Share{*diameter, *share};
+  }
+
   std::vector<SizeDistribution::Share>
   SizeDistribution::shares() const
   {
@@ -85,11 +110,7 @@ namespace graupel
     double             total = 0.;
     for (const auto &entry : dealii::Utilities::split_string_list(list))
       {
-        const auto numbers = dealii::Utilities::split_string_list(entry, ':');
-        if (numbers.size() != 2)
-          return {};
-        result.push_back({dealii::Utilities::string_to_double(numbers[0]),
-                          dealii::Utilities::string_to_double(numbers[1])});
+        result.push_back(read_share(entry).value());
         total += result.back().share;
       }
     for (auto &share : result)

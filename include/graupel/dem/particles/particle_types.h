@@ -5,6 +5,7 @@
 
 #include <deal.II/base/parameter_handler.h>
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -67,7 +68,10 @@ namespace graupel
       double diameter;
       double share;
     };
-    // Of the list, by ascending diameter, shares of 1 together.
+    // "1e-3: 0.4"; nothing for any other text.
+    static std::optional<Share> read_share(const std::string &entry);
+    // Of the list, which check() has found right: by ascending diameter, shares of 1
+    // together.
     std::vector<Share> shares() const;
   };
 

@@ -34,6 +34,8 @@ CASE_KEYS = (
     "cpu_seconds",
 )
 CASE_FLAGS = ("fluidized", "steady")
+# What a case may tell beyond that: the force of all that the particles stand on.
+FURTHER_CASE_KEYS = ("support_force",)
 
 MONITOR_COLUMNS = (
     "time",
@@ -71,6 +73,8 @@ BED_COLUMNS = {
 }
 MIDPLANE_COLUMNS = ("x", "z", "void_fraction", "superficial_velocity", "pressure")
 TEXT_COLUMNS = ("phase",)
+# Columns of monitors.csv that not every run has.
+WALL_FORCE = "force_"
 
 
 @dataclass
@@ -90,6 +94,7 @@ class RunOutput:
     radial: dict = field(default_factory=dict)
     midplane: dict = field(default_factory=dict)
     bed: dict = field(default_factory=dict)
+    probes: dict = None
     notices: list = field(default_factory=list)
 
     def get(self, *path):
@@ -107,6 +112,14 @@ class RunOutput:
         """The case with this number, or None."""
         return next((case for case in self.cases if case["number"] == number), None)
 
+    def has_flow(self):
+        """False only if the run says itself that it has no flow case."""
+        return self.get("cases") != []
+
+    def has_particles(self):
+        """False only if the run says itself that it has no particles."""
+        return self.number("bed", "particle_count") != 0.0
+
     def empty(self):
         """Whether nothing at all of a run was found."""
         return not (
@@ -116,6 +129,7 @@ class RunOutput:
             or self.profiles
             or self.radial
             or self.midplane
+            or self.probes
         )
 
 
@@ -207,6 +221,8 @@ def read_cases(directory, summary, notices):
     listed = listed if isinstance(listed, list) else []
     rows = [row for row in listed if isinstance(row, dict)]
     path = directory / "cases.csv"
+    if listed == [] and "cases" in summary:
+        return []
     if not path.is_file():
         notices.append(
             "cases.csv is missing" + ("; the cases are those of summary.json." if rows else ".")
@@ -215,7 +231,8 @@ def read_cases(directory, summary, notices):
         rows = rows_of_cases_csv(path, notices)
     cases = []
     for number, row in enumerate(rows, start=1):
-        case = {key: as_number(row.get(key)) for key in CASE_KEYS if key not in CASE_FLAGS}
+        names = [key for key in CASE_KEYS + FURTHER_CASE_KEYS if key not in CASE_FLAGS]
+        case = {key: as_number(row.get(key)) for key in names}
         case.update({key: as_flag(row.get(key)) for key in CASE_FLAGS})
         case["number"] = number
         cases.append(case)
@@ -232,8 +249,9 @@ def rows_of_cases_csv(path, notices):
         return []
 
 
-def read_numbered(directory, stem, columns, cases, notices, every_case=True):
+def read_numbered(run, stem, columns, every_case=True):
     """The tables STEM-NN.csv by case number; names in a notice what is missing."""
+    directory, cases, notices = run.directory, run.cases, run.notices
     tables = {}
     on_disk = set()
     for path in sorted(directory.glob(f"{stem}-*.csv")):
@@ -245,7 +263,7 @@ def read_numbered(directory, stem, columns, cases, notices, every_case=True):
         if table is not None:
             tables[int(match.group(1))] = table
     absent = [f"{stem}-{case['number']:02d}.csv" for case in cases if case["number"] not in on_disk]
-    if not on_disk:
+    if not on_disk and run.has_flow():
         notices.append(f"{stem}-NN.csv: there is no such file.")
     elif absent and every_case:
         notices.append(f"{', '.join(absent)} {'is' if len(absent) == 1 else 'are'} missing.")
@@ -261,18 +279,19 @@ def read_run(directory):
     monitors = run.directory / "monitors.csv"
     if monitors.is_file():
         run.monitors = read_table(monitors, MONITOR_COLUMNS, notices)
-    else:
+    elif run.has_flow():
         notices.append("monitors.csv is missing.")
-    run.profiles = read_numbered(run.directory, "profiles", PROFILE_COLUMNS, run.cases, notices)
-    run.radial = read_numbered(run.directory, "radial", RADIAL_COLUMNS, run.cases, notices)
+    run.profiles = read_numbered(run, "profiles", PROFILE_COLUMNS)
+    run.radial = read_numbered(run, "radial", RADIAL_COLUMNS)
+    probes = run.directory / "probes.csv"
+    if probes.is_file():
+        run.probes = read_table(probes, ("time",), notices)
     for name, columns in BED_COLUMNS.items():
         path = run.directory / f"{name}.csv"
         table = read_table(path, columns, notices) if path.is_file() else None
         if table is not None:
             run.bed[name] = table
-    run.midplane = read_numbered(
-        run.directory, "midplane", MIDPLANE_COLUMNS, run.cases, notices, every_case=False
-    )
+    run.midplane = read_numbered(run, "midplane", MIDPLANE_COLUMNS, every_case=False)
     return run
 
 

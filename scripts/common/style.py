@@ -1,6 +1,7 @@
 """How the figures look, and how they reach the page and the folder of PNG files."""
 
 import base64
+import functools
 import io
 from dataclasses import dataclass
 
@@ -58,6 +59,10 @@ class NothingToShow(Exception):
     """The data of a figure are not there; the message says which."""
 
 
+class NotOfThisRun(NothingToShow):
+    """The run has nothing of the kind (no flow, no particles), so that nothing is missing."""
+
+
 @dataclass
 class Rendered:
     """A finished figure: the name of its PNG file, and its SVG as a data URI."""
@@ -93,7 +98,9 @@ def colour_of_each(count):
 
 def column(cases, key):
     """One quantity of all cases, as an array with NaN where it is not known."""
-    return np.array([np.nan if case[key] is None else case[key] for case in cases], dtype=float)
+    return np.array(
+        [np.nan if case.get(key) is None else case[key] for case in cases], dtype=float
+    )
 
 
 def known(values):
@@ -118,9 +125,52 @@ def plot_cases(axes, cases, values, colour, label, marker="o", line="-"):
     )
 
 
+def diamonds(axes, x, y, label, **more):
+    """The paper's own values: hollow diamonds."""
+    axes.plot(
+        x, y, "D", markerfacecolor="none", markeredgecolor=VERMILLION, label=label, **more
+    )
+
+
+def note(axes, text, at, offset=(4, 3), colour=PURPLE, fontsize=8, **more):
+    """A text near the point @p at, so many points beside it."""
+    axes.annotate(
+        text,
+        at,
+        xytext=offset,
+        textcoords="offset points",
+        color=colour,
+        fontsize=fontsize,
+        **more,
+    )
+
+
+def shade_papers_band(axes, paper, label):
+    """The paper's range of deviations [%] over the cases before its onset, in grey."""
+    axes.fill_between(
+        [paper.velocity[0], paper.velocity[-2]],
+        *np.array(paper.band) * PERCENT,
+        color="#DCDCDC",
+        linewidth=0,
+        label=label,
+    )
+
+
 def velocity_axis(axes):
     """Labels the axis of the superficial velocity."""
     axes.set_xlabel("superficial velocity $V_s$ [m/s]")
+
+
+def of_cases(make):
+    """A figure of the flow cases: a run that has none does not miss it."""
+
+    @functools.wraps(make)
+    def figure(run, paper):
+        if not run.has_flow():
+            raise NotOfThisRun("there is no flow")
+        return make(run, paper)
+
+    return figure
 
 
 def need_cases(cases):

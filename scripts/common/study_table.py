@@ -1,0 +1,16 @@
+"""Reads study.csv, the table of a refinement study."""
+
+import csv
+
+from .run_output import as_number
+
+TEXTS = ("quantity", "status")
+
+
+def read_study(path):
+    """The rows of study.csv in the order of the file: numbers, or None where there is none."""
+    with open(path, newline="", encoding="utf-8") as file:
+        return [
+            {key: value if key in TEXTS else as_number(value) for key, value in row.items()}
+            for row in csv.DictReader(file)
+        ]

@@ -1,0 +1,450 @@
+"""Small inputs that go wrong easily, each run to its right value: tests/cases/.
+
+Called with the path of the binary. Where two runs are compared, the second one is the
+same but for what must not matter.
+"""
+
+import math
+import pathlib
+import shutil
+import struct
+import subprocess
+import sys
+import tempfile
+import unittest
+
+import runs
+from runs import ROOT, Program, Run, call, overrides
+
+from common.particles import positions
+
+CASES = ROOT / "tests" / "cases"
+# A tenth of a sphere's diameter [m]: what two packings of the same bed may differ by.
+TENTH = 2e-4
+# Of two solutions of the same flow: the linear solver's tolerance is 1e-8, through some
+# ten systems.
+SAME_FLOW = 1e-6
+
+
+class CaseTest(unittest.TestCase):
+    """Runs cases in a copy of their folder."""
+
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.path = pathlib.Path(folder.name) / "cases"
+        shutil.copytree(CASES, self.path)
+
+    def run_case(self, name, values=None, *more, output="o", ranks=1, timeout=120):
+        """The finished run of a case with the overridden @p values."""
+        process = call(
+            f"{name}.prm", *overrides(values or {}), "--output", output, *more,
+            ranks=ranks, cwd=self.path, timeout=timeout,
+        )  # fmt: skip
+        return Run(process, self.path / output)
+
+    def finished(self, *arguments, **options):
+        """The same of a run that must reach its end."""
+        run = self.run_case(*arguments, **options)
+        self.assertEqual(run.status, 0, run)
+        return run
+
+    def refused(self, name, values=None, *more, says=(), **options):
+        """A run that must be refused before it leaves anything, naming its words."""
+        run = self.run_case(name, values, *more, **options)
+        self.assertEqual(run.status, 1, run)
+        for word in says:
+            self.assertIn(word, run.refusal)
+        self.assertNotIn("Additional information", run.refusal, "a stack trace")
+        return run
+
+    def checked(self, name, values=None, says=()):
+        """What --check must refuse, naming its words; it writes nothing."""
+        run = self.refused(name, values, "--check", says=says)
+        self.assertFalse(run.directory.exists())
+
+    def assert_close(self, value, right, relative, message=None):
+        """Both are numbers that differ by at most the relative tolerance."""
+        self.assertIsNotNone(value, message)
+        self.assertLessEqual(
+            abs(value - right), relative * abs(right), f"{message}: {value}, not {right}"
+        )
+
+    def assert_within(self, value, right, absolute, message=None):
+        """The same with an absolute tolerance."""
+        self.assertIsNotNone(value, message)
+        self.assertLessEqual(abs(value - right), absolute, f"{message}: {value}, not {right}")
+
+    def assert_balanced(self, run):
+        """The ledger of mass holds to the tolerance that the design promises."""
+        self.assertLessEqual(run.summary["ledger"]["max_mass_imbalance"], 1e-8)
+
+
+class OpenBoundaries(CaseTest):
+    """Pressures that are prescribed, and what flows then."""
+
+    def test_the_level_of_the_outlet_does_not_matter(self):
+        right = self.finished("outlet-pressure", {"Boundary conditions/top": "pressure 0"}).case
+        for level in (1000, 101325):
+            case = self.finished(
+                "outlet-pressure", {"Boundary conditions/top": f"pressure {level}"}
+            ).case
+            # 1e-8 of the level may be left of it, against a drop of 1 Pa: 1e-3.
+            tolerance = max(SAME_FLOW, 1e-8 * level)
+            for key in ("fluid_force", "pressure_drop"):
+                self.assert_close(case[key], right[key], tolerance, f"{key} at {level} Pa")
+            self.assertIs(case["fluidized"], False)
+
+    def test_nor_does_that_of_an_inlet(self):
+        low, high = (
+            self.finished(
+                "inlet-pressure",
+                {
+                    "Boundary conditions/bottom": f"pressure {level + 10}",
+                    "Boundary conditions/top": f"pressure {level}",
+                },
+            ).case
+            for level in (0, 1000)
+        )
+        for key in ("fluid_force", "pressure_drop", "superficial_velocity"):
+            self.assert_close(high[key], low[key], 1e-5, key)
+
+    def test_a_drop_of_10_pascal_is_one(self):
+        run = self.finished("inlet-pressure")
+        self.assert_close(run.case["pressure_drop"], 10.0, 1e-6, "pressure drop")
+        # What a plug must have to drop as much.
+        velocity = run.case["superficial_velocity"]
+        self.assert_within(velocity, 0.433, 0.02, "what flows")
+        plug = self.finished(
+            "inlet-velocity",
+            {"Boundary conditions/bottom": "plug", "Flow/superficial velocities": velocity},
+        )
+        # Even against parabolic at the very inlet: per cents of its last cell.
+        self.assert_close(plug.case["pressure_drop"], 10.0, 0.02, "drop of the plug")
+        self.assert_balanced(run)
+
+    def test_what_enters_by_expressions_is_what_is_reported(self):
+        given = self.finished("inlet-velocity")
+        plug = self.finished(
+            "inlet-velocity",
+            {"Boundary conditions/bottom": "plug", "Flow/superficial velocities": 0.6},
+        )
+        self.assert_close(given.case["superficial_velocity"], 0.6, 1e-6, "velocity")
+        self.assert_within(given.case["deviation_from_ergun"], -0.367, 1e-3, "deviation")
+        for key in ("pressure_drop", "ergun_pressure_drop", "gradient_deviation_from_ergun"):
+            self.assert_close(given.case[key], plug.case[key], 1e-5, key)
+
+
+class BedsAnywhere(CaseTest):
+    """Beds that do not stand on z = 0, and what is no bed."""
+
+    def expect_the_same_bed_higher(self, height):
+        values = {"Walls/planes": f"0 0 {height} 0 0 -1"}
+        here, there = self.finished("floor", {"Walls/planes": ""}), self.finished("floor", values)
+        for key in ("bed_height", "mean_void_fraction", "pressure_drop"):
+            self.assertIsNotNone(there.case[key], key)
+        self.assert_within(there.case["bed_height"], here.case["bed_height"], TENTH, "height")
+        # A tenth of a diameter in 7 mm is 0.017 of the void fraction.
+        void = [run.case["mean_void_fraction"] for run in (there, here)]
+        self.assert_within(*void, 0.017, "void fraction")
+        # The bed is not the same sphere by sphere.
+        self.assert_close(
+            there.case["pressure_drop"], here.case["pressure_drop"], 0.1, "pressure drop"
+        )
+        self.assertIs(there.case["fluidized"], False)
+        rise = there.middle_of_solids() - here.middle_of_solids()
+        self.assert_within(rise, height, TENTH, "higher by")
+        return there
+
+    def test_a_floor_above_the_bottom(self):
+        case = self.expect_the_same_bed_higher(0.003).rows("monitors.csv")[-1]
+        carried = case["support_force"] + case["fluid_force"]
+        # As forces_balance of the command line: what the particles still move.
+        self.assert_close(carried, self.weight(), 0.01, "carried")
+
+    def test_a_floor_above_half_of_the_bed(self):
+        self.expect_the_same_bed_higher(0.006)
+
+    @staticmethod
+    def weight():
+        """Of 100 spheres of 2 mm [N]."""
+        return 100 * math.pi / 6 * 2e-3**3 * 2700 * 9.81
+
+    def test_a_bed_at_the_lid(self):
+        case = self.finished("lid").case
+        # It is one bed of 7 mm or none at all; 15 mm would reach from the floor.
+        if case["bed_height"] is not None:
+            self.assert_within(case["bed_height"], 7e-3, 1.5e-3, "height")
+        for key in ("deviation_from_ergun", "gradient_deviation_from_ergun"):
+            self.assertIsNone(case[key], key)
+
+    def test_a_single_sphere(self):
+        case = self.finished("coarse").case
+        self.assertIsNone(case["gradient_deviation_from_ergun"])
+        self.assert_close(case["superficial_velocity"], 0.3, 1e-6, "velocity")
+        self.assertGreater(case["fluid_force"], 0.0)
+
+    def test_nothing_to_fill_in_is_told(self):
+        self.refused("none", says=["Filling/mass"])
+
+    def test_a_gate_that_is_gone(self):
+        gate = self.finished("gate", output="o-gate")
+        bed = self.finished("nogate")
+        fall = gate.middle_of_solids() - bed.middle_of_solids()
+        self.assert_within(fall, 3e-3, TENTH, "fall")
+
+
+class Resuming(CaseTest):
+    """What goes on from a checkpoint."""
+
+    def test_another_flow_under_the_old_name(self):
+        self.assertEqual(self.run_case("resume").status, 1)
+        values = {"Boundary conditions/bottom": "plug", "Flow/superficial velocities": "0.6"}
+        run = self.run_case("resume", values, "--resume")
+        if run.status == 0:
+            self.assert_close(run.case["pressure_drop"], 6.85, 0.01, "pressure drop")
+        else:
+            self.assertIn("Flow/superficial velocities", run.refusal)
+
+    def test_a_moving_bed_goes_on_bit_by_bit(self):
+        def entering(until):
+            return {"Boundary conditions/bottom": f"velocity 0; 0; V*(t > {until} ? 1e300 : 1)"}
+
+        whole = self.finished("restart", entering(1000), output="whole")
+        cut = self.run_case("restart", entering(0.08001), output="cut")
+        self.assertEqual(cut.status, 1)
+        resumed = self.finished("restart", entering(1000), "--resume", output="cut")
+        one, other = whole.rows("monitors.csv"), resumed.rows("monitors.csv")
+        self.assertEqual(len(one), len(other))
+        for there, here in zip(one, other):
+            self.assertEqual(there, here)
+
+
+class InTime(CaseTest):
+    """Time schemes, first steps and steps that are too long."""
+
+    def test_two_steps_of_the_past_are_used(self):
+        drops = []
+        for scheme in ("bdf1", "bdf2"):
+            run = self.finished("bdf2", {"Flow solver/time scheme": scheme}, output=scheme)
+            drops.append([row["pressure_drop"] for row in run.rows("monitors.csv")
+                          if row["phase"] == "flow"])  # fmt: skip
+        one, two = drops
+        self.assertNotEqual(one, two)
+        # The same flow in the end.
+        self.assert_close(two[-1], one[-1], 0.01, "last drop")
+
+    def test_next_to_nothing_enters_in_the_first_step(self):
+        run = self.finished("step")
+        self.assert_balanced(run)
+        self.assertGreater(run.case["pressure_drop"], 0.0)
+
+    def test_small_spheres_in_water_rest(self):
+        run = self.finished("water")
+        self.assert_close(run.case["pressure_drop"], 13.97, 0.01, "pressure drop")
+        self.assertLess(run.rows("monitors.csv")[-1]["maximum_speed"], 5e-3)
+
+    def test_corks_float_to_the_lid(self):
+        run = self.finished("cork")
+        # 100 spheres at a void fraction of 0.46 are 7 mm of bed, here below the lid.
+        middle = run.middle_of_solids("profiles-01.csv")
+        self.assert_within(middle, 0.02 - 3.4e-3, 1e-3, "middle of the corks")
+
+
+class Sizes(CaseTest):
+    """Spheres by their own sizes, whatever the type's diameter."""
+
+    def test_the_same_spheres_give_the_same_numbers(self):
+        texts, cases = [], []
+        for diameter in ("2e-3", "3e-3"):
+            values = {"Particles/diameter": diameter}
+            texts.append(self.run_case("size-list", values, "--check").said)
+            case = self.finished("size-list", values).case
+            cases.append({k: v for k, v in case.items() if "seconds" not in k})
+        self.assertEqual(*texts)
+        self.assertEqual(*cases)
+
+    def test_sizes_that_no_type_declares(self):
+        # At rest without gravity and flow: the overlap of 0.2 mm drives them apart.
+        found = []
+        for ranks in (1, 3):
+            run = self.run_case("list9", output=f"o-{ranks}", ranks=ranks)
+            if run.status == 0:
+                found.append(positions(run.directory).tolist())
+            else:
+                self.assertIn("two.csv, line 2", run.refusal)
+                self.assertIn("type", run.refusal)
+                found.append(None)
+        self.assertEqual(*found)
+
+    def test_a_sphere_of_a_tenth(self):
+        run = self.run_case("small", timeout=60)
+        if run.status == 0:
+            center = positions(run.directory)[0]
+            # At rest on the bottom, which it touches at its radius.
+            self.assert_within(center[2], 1e-4, 1e-6, "height of its center")
+        else:
+            self.assertIn("small.csv, line 2", run.refusal)
+            self.assertIn("type", run.refusal)
+
+
+class Filling(CaseTest):
+    """How much is filled in, where, and when."""
+
+    def test_a_rate_that_is_no_whole_number_a_layer(self):
+        for rate, right in ((630, 0.159), (650, 0.154)):
+            run = self.finished("rate", {"Filling/rate": rate})
+            self.assert_within(self.filled_after(run), right, 5e-3, f"at {rate} a second")
+
+    @staticmethod
+    def filled_after(run):
+        """Simulated time of filling [s]."""
+        times = [row["time"] for row in run.rows("monitors.csv") if row["phase"] == "fill"]
+        if times:
+            return times[-1]
+        line = next(text for text in run.said.splitlines() if text.startswith("fill: reached"))
+        return float(line.split()[2])
+
+    def test_what_leaves_while_it_is_filled_in(self):
+        try:
+            run = self.run_case("leak", timeout=60)
+        except subprocess.TimeoutExpired:
+            self.fail("it does not end")
+        self.assertTrue(run.status == 0 or "Walls/bottom" in run.refusal, run)
+
+    def test_none_inside_a_closed_box(self):
+        centers = positions(self.finished("box").directory)
+        self.assertEqual(len(centers), 60)
+        # box.stl: a prism with a slanting side, in metres.
+        inside = [
+            (x, y, z)
+            for x, y, z in centers
+            if abs(x) < 3e-3 and -3e-3 < y < 3e-3 + 1.5e-3 * (x / 3e-3 + 1) and 6e-3 < z < 12e-3
+        ]
+        self.assertEqual(inside, [])
+
+    def test_half_a_tube_needs_half_as_much(self):
+        whole, half = self.finished("half", {"Walls/planes": ""}), self.finished("half")
+        self.assert_within(half.bed["height"], 6e-3, 1e-3, "height")
+        ratio = half.bed["particle_count"] / whole.bed["particle_count"]
+        self.assert_within(ratio, 0.5, 0.02, "spheres over those of the whole tube")
+        # Two walls more: looser by some per cent.
+        void = half.bed["mean_void_fraction"]
+        self.assert_within(void, whole.bed["mean_void_fraction"], 0.08, "void fraction")
+
+
+class CheckedBeforehand(CaseTest):
+    """What --check and a run must refuse before anything is written."""
+
+    def test_an_original_bed_higher_than_the_vessel(self):
+        for check in (("--check",), ()):
+            run = self.refused("orig", None, *check, says=["Original bed", "0.05", "0.02"])
+            self.assertFalse(run.directory.exists())
+
+    def test_files_that_are_not_there(self):
+        self.checked("bed20", {"Walls/surfaces": "missing.stl"}, says=["missing.stl"])
+        self.checked("list9", {"Filling/file": "missing.csv"}, says=["missing.csv"])
+        self.checked("bed20", {"Filling/start from": "nowhere"}, says=["Filling/start from"])
+        self.checked("bed20", {"Mesh/file": "missing.msh"}, says=["Mesh/file"])
+
+    def test_a_sphere_wider_than_the_tube(self):
+        self.checked(
+            "size-list", {"Particles/size list": "3e-3: 1, 13e-3: 1"}, says=["Particles/size list"]
+        )
+
+    def test_a_pair_with_a_wall_that_is_not_there(self):
+        for wall in ("plane 7", "door"):
+            self.checked(
+                "bed20", {"Contact/pairs": f"1-{wall} friction 0.3"}, says=["Contact/pairs", wall]
+            )
+
+    def test_every_level_of_a_study(self):
+        # The second level's filter is wider than the vessel.
+        values = {
+            "Filling/start from": "",
+            "Refinement study/vary": "scale",
+            "Refinement study/values": "8, 1",
+        }
+        self.checked("study", values, says=["Refinement study/values", "8"])
+
+    def test_a_study_of_which_no_level_can_begin(self):
+        self.checked("study", says=["Filling/start from"])
+        for ranks in (1, 2):
+            run = self.refused("study", says=["nowhere"], ranks=ranks)
+            self.assertFalse((run.directory / "study.csv").exists())
+
+    def test_a_filter_too_short_is_to_blame(self):
+        self.refused("filter0", says=["Coupling/filter length"])
+
+
+class OutputDirectory(CaseTest):
+    """What an earlier run has left."""
+
+    def contents(self):
+        return {
+            str(file.relative_to(self.path)): file.read_bytes()
+            for file in (self.path / "o").rglob("*")
+            if file.is_file()
+        }
+
+    def test_a_refusal_removes_nothing(self):
+        self.finished("outlet-pressure")
+        before = self.contents()
+        for values in (
+            {"Walls/surfaces": "missing.stl"},
+            {"Filling/method": "list", "Filling/file": "missing.csv"},
+            {"Filling/start from": "nowhere"},
+        ):
+            self.refused("outlet-pressure", values)
+            self.assertEqual(before, self.contents(), values)
+
+    def test_its_own_bed_serves_again(self):
+        first = self.finished("bed20").bed
+        again = self.finished("bed20", {"Filling/start from": "o"}).bed
+        for key in ("height", "mean_void_fraction"):
+            self.assert_close(again[key], first[key], 1e-3, key)
+
+    def test_a_study_of_another_time_is_gone(self):
+        self.finished("bed20")
+        (self.path / "o" / "study.csv").write_text("level\n", encoding="utf-8")
+        (self.path / "o" / "notes.txt").write_text("mine\n", encoding="utf-8")
+        self.finished("bed20")
+        self.assertFalse((self.path / "o" / "study.csv").exists())
+        self.assertTrue((self.path / "o" / "notes.txt").exists())
+
+
+class ParameterText(CaseTest):
+    """Text that is not what it looks like."""
+
+    def test_a_comment_swallows_nothing(self):
+        (self.path / "comment.prm").write_text(
+            "include bed20.prm\nsubsection Particles\n  # of C:\\beds\\\n"
+            "  set density = 1234\nend\n",
+            encoding="utf-8",
+        )
+        told = call("comment.prm", "--print-parameters", cwd=self.path).stdout
+        self.assertIn("set density         = 1234", told.replace("  ", "  "))
+
+    def test_a_name_with_a_hash_is_read_back(self):
+        run = self.finished("bed20", output="run#1")
+        again = call("run#1/parameters.prm", "--print-parameters", cwd=self.path)
+        self.assertEqual(again.returncode, 0, again.stderr)
+        line = next(text for text in again.stdout.splitlines() if "set directory" in text)
+        self.assertEqual(line.split("=", 1)[1].split(" #")[0].strip(), "run#1")
+        self.assertTrue(run.directory.is_dir())
+
+    def test_words_end_at_a_blank_and_numbers_are_numbers(self):
+        for name, value in (
+            ("Boundary conditions/top", "pressure100"),
+            ("Particles/size list", "1e-3: abc"),
+            ("Walls/planes", "0 0 nan 0 0 -1"),
+            ("Contact/pairs", "1-1 friction inf"),
+            ("Coupling/filter length", "nan"),
+            ("Flow/superficial velocities", "0.3, inf"),
+        ):
+            self.checked("size-list", {name: value}, says=[name])
+
+
+if __name__ == "__main__":
+    Program.path = str(pathlib.Path(sys.argv.pop(1)).resolve())
+    unittest.main()

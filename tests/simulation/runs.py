@@ -1,0 +1,94 @@
+"""Runs of the program from outside, for the tests that are called with its path."""
+
+import csv
+import json
+import os
+import pathlib
+import subprocess
+import sys
+
+# For the reader of ParaView's files and for the project's own tables.
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+sys.dont_write_bytecode = True
+sys.path.insert(0, str(ROOT / "scripts"))
+
+
+class Program:
+    """The binary under test; set once by the test's main()."""
+
+    path = None
+
+
+def call(*arguments, ranks=1, cwd=None, timeout=600):
+    """The finished process of graupel with these arguments."""
+    environment = dict(
+        os.environ,
+        OMPI_ALLOW_RUN_AS_ROOT="1",
+        OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1",
+        OMP_NUM_THREADS="1",
+    )
+    command = [Program.path, *map(str, arguments)]
+    if ranks > 1:
+        command = ["mpirun", "--oversubscribe", "-np", str(ranks)] + command
+    return subprocess.run(
+        command, env=environment, capture_output=True, text=True, timeout=timeout, cwd=cwd
+    )
+
+
+def overrides(values):
+    """A dictionary of parameters as options of the command line."""
+    return [part for name, value in values.items() for part in ("--set", f"{name}={value}")]
+
+
+def value_of(text):
+    """A cell of a table as a number, a flag or a word; None if it is empty."""
+    if text in ("", "nan", "true", "false"):
+        return {"": None, "nan": None, "true": True, "false": False}[text]
+    try:
+        return float(text)
+    except ValueError:
+        return text
+
+
+def rows_of(file):
+    """The rows of a CSV file, each a dictionary."""
+    with open(file, newline="", encoding="utf-8") as stream:
+        return [{k: value_of(v) for k, v in row.items()} for row in csv.DictReader(stream)]
+
+
+class Run:
+    """What one call left: its exit status, what it said, and its output directory."""
+
+    def __init__(self, process, directory):
+        self.status = process.returncode
+        self.said = process.stdout + process.stderr
+        self.refusal = process.stderr
+        self.directory = directory
+
+    def __str__(self):
+        return f"status {self.status}: {self.said[-2000:]}"
+
+    def rows(self, name):
+        """The rows of one of its tables."""
+        return rows_of(self.directory / name)
+
+    @property
+    def summary(self):
+        """summary.json."""
+        return json.loads((self.directory / "summary.json").read_text(encoding="utf-8"))
+
+    @property
+    def bed(self):
+        """The bed before the flow."""
+        return self.summary["bed"]
+
+    @property
+    def case(self):
+        """The last flow case."""
+        return self.summary["cases"][-1]
+
+    def middle_of_solids(self, name="bed-axial.csv"):
+        """Mean height of the solids [m], from a profile along the axis."""
+        rows = self.rows(name)
+        solid = [1.0 - row["void_fraction"] for row in rows]
+        return sum(s * row["z"] for s, row in zip(solid, rows)) / sum(solid)
