@@ -7,22 +7,6 @@ namespace graupel
 {
   namespace
   {
-    // One component of a vector quantity of all own particles.
-    template <typename Function>
-    std::vector<double>
-    by_row(const unsigned int n_rows, const Function &function)
-    {
-      std::vector<double> values(n_rows);
-      for (unsigned int row = 0; row < n_rows; ++row)
-        values[row] = function(row);
-      return values;
-    }
-
-    // The surface of the bed lies between these parts of the mean solid fraction.
-    constexpr double outside = 0.4, inside = 0.6;
-    // Not even spheres in the densest order leave less void [-].
-    constexpr double densest = 0.26;
-
     [[noreturn]] void
     fail_at(const dealii::Point<3> &position, const std::string &reason)
     {
@@ -95,7 +79,8 @@ namespace graupel
                      const std::vector<DragOfType> &drags,
                      const NodalSpace              &nodes,
                      CostSheet                     &costs)
-    : law(law_void_fraction)
+    : filter_length(filter_length)
+    , law(law_void_fraction)
     , drags(drags)
     , nodes(nodes)
     , costs(costs)
@@ -120,7 +105,8 @@ namespace graupel
     const CostSheet::Scope timing(costs, CostSheet::void_fraction);
     transfer.update(store);
     deposit_void_fraction(particles);
-    law_alpha = law_void_fractions();
+    check_void_fraction(particles);
+    law_alpha = law_void_fractions(particles);
     of_slip   = smooth_power(-1);
     of_drag   = result.shares_pressure ? smooth_power(-2) : of_slip;
   }
@@ -137,121 +123,99 @@ namespace graupel
       }
   }
 
+  template <typename Function>
   void
-  Exchange::deposit_void_fraction(const ParticleArrays &particles)
+  Exchange::spread(NodalVector &x, const Function &value)
   {
-    volume = by_row(particles.n_owned, [&](const unsigned int row) {
-      return sphere_volume(particles.body[row].radius);
-    });
-    transfer.deposit(scratch, volume);
-    filter.spread(solid_fraction, scratch);
-
-    double on_mesh = 0., in_particles = 0.;
-    for (unsigned int k = 0; k < solid_fraction.locally_owned_size(); ++k)
-      {
-        result.void_fraction.local_element(k) = 1. - solid_fraction.local_element(k);
-        on_mesh +=
-          nodes.measure().local_element(k) * (1. - result.void_fraction.local_element(k));
-      }
-    result.void_fraction.update_ghost_values();
-    for (const double v : volume)
-      in_particles += v;
-    on_mesh      = dealii::Utilities::MPI::sum(on_mesh, nodes.mesh.communicator());
-    in_particles = dealii::Utilities::MPI::sum(in_particles, nodes.mesh.communicator());
-    volume_error = in_particles > 0. ? std::abs(on_mesh / in_particles - 1.) : 0.;
-  }
-
-  std::vector<double>
-  Exchange::surface_factors(const std::vector<double> &alpha)
-  {
-    double solid = 0.;
-    for (const double a : alpha)
-      solid += 1. - a;
-    const MPI_Comm communicator = nodes.mesh.communicator();
-    solid                       = dealii::Utilities::MPI::sum(solid, communicator);
-    const double n =
-      dealii::Utilities::MPI::sum(static_cast<double>(alpha.size()), communicator);
-    const double mean = std::max(solid / std::max(1., n), 1e-6);
-
-    for (unsigned int k = 0; k < scratch.locally_owned_size(); ++k)
-      {
-        const double share = solid_fraction.local_element(k) / mean;
-        scratch.local_element(k) =
-          std::clamp((share - outside) / (inside - outside), 0., 1.);
-      }
-    scratch.update_ghost_values();
-    filter.smooth(smooth_scratch, scratch);
-
-    std::vector<double> chi, smooth_chi;
-    transfer.sample(chi, scratch);
-    transfer.sample(smooth_chi, smooth_scratch);
-    for (unsigned int row = 0; row < chi.size(); ++row)
-      chi[row] = smooth_chi[row] > 0. ? std::max(1., chi[row] / smooth_chi[row]) : 1.;
-    return chi;
-  }
-
-  std::vector<double>
-  Exchange::law_void_fractions()
-  {
-    std::vector<double> alpha;
-    transfer.sample(alpha, result.void_fraction);
-    std::vector<double> factor(alpha.size(), 1.);
-    if (law.sharp_surface)
-      factor = surface_factors(alpha);
-    for (unsigned int row = 0; row < alpha.size(); ++row)
-      factor[row] = std::max(1. - (1. - alpha[row]) * factor[row] * law.solid_ratio,
-                             std::min(alpha[row], densest));
-    return factor;
-  }
-
-  std::vector<double>
-  Exchange::smooth_power(const int exponent)
-  {
-    for (unsigned int k = 0; k < scratch.locally_owned_size(); ++k)
-      scratch.local_element(k) =
-        std::pow(result.void_fraction.local_element(k), exponent);
-    filter.smooth(smooth_scratch, scratch);
-    std::vector<double> values;
-    transfer.sample(values, smooth_scratch);
-    return values;
+    std::vector<double> values(beta.size());
+    for (unsigned int row = 0; row < values.size(); ++row)
+      values[row] = value(row);
+    transfer.deposit(scratch, values);
+    filter.spread(x, scratch);
   }
 
   void
-  Exchange::update_drag(const ParticleArrays &particles)
+  Exchange::find_drag_coefficients(const ParticleArrays &particles)
   {
-    const CostSheet::Scope             timing(costs, CostSheet::exchange);
     const unsigned int                 n = particles.n_owned;
     std::array<std::vector<double>, 3> velocity;
     for (unsigned int i = 0; i < 3; ++i)
       transfer.sample(velocity[i], smooth_velocity[i]);
 
     beta.resize(n);
+    slip.resize(n);
     for (unsigned int row = 0; row < n; ++row)
       {
-        dealii::Tensor<1, 3> slip;
+        dealii::Tensor<1, 3> relative;
         for (unsigned int i = 0; i < 3; ++i)
-          slip[i] = velocity[i][row] - particles.body[row].velocity[i];
+          relative[i] = velocity[i][row] - particles.body[row].velocity[i];
+        const double a = law_alpha[row];
+        slip[row]      = relative.norm() / (of_slip[row] * a);
         try
           {
-            const double a = law_alpha[row];
-            beta[row]      = drags[particles.type[row]].beta(a,
-                                                        slip.norm() / (of_slip[row] * a),
-                                                        particles.body[row].radius) /
-                        (of_drag[row] * a * a);
+            beta[row] =
+              drags[particles.type[row]].beta(a, slip[row], particles.body[row].radius) /
+              (of_drag[row] * a * a);
           }
         catch (const std::exception &error)
           {
             fail_at(particles.body[row].position, error.what());
           }
       }
-    transfer.deposit(scratch, beta);
-    filter.spread(result.drag, scratch);
+  }
+
+  void
+  Exchange::update_drag(const ParticleArrays &particles)
+  {
+    const CostSheet::Scope timing(costs, CostSheet::exchange);
+    find_drag_coefficients(particles);
+    response = held_response(particles);
+    answer.assign(particles.n_owned, 1.);
+    result.solids.reset();
+    spread(result.drag, [&](const unsigned int row) { return beta[row]; });
+    for (unsigned int i = 0; i < 3; ++i)
+      spread(result.drag_source[i], [&](const unsigned int row) {
+        return beta[row] * response.velocity[row][i];
+      });
+  }
+
+  void
+  Exchange::update_drag(const ParticleArrays   &particles,
+                        const ParticleResponse &particle_response)
+  {
+    const CostSheet::Scope timing(costs, CostSheet::exchange);
+    find_drag_coefficients(particles);
+    response = particle_response;
+    answer.resize(particles.n_owned);
+    for (unsigned int row = 0; row < particles.n_owned; ++row)
+      answer[row] = 1. / (1. + beta[row] * response.mobility[row]);
+    if (!result.solids)
+      result.solids.emplace(nodes);
+    MovingSolids &solids = *result.solids;
+
+    const auto drag = [&](const unsigned int row) { return answer[row] * beta[row]; };
+    const auto flux = [&](const unsigned int row) {
+      return volume[row] * response.mobility[row];
+    };
+    spread(result.drag, drag);
+    spread(solids.by_velocity,
+           [&](const unsigned int row) { return flux(row) * drag(row); });
+    if (result.shares_pressure)
+      {
+        spread(solids.pressure_share,
+               [&](const unsigned int row) { return answer[row] * volume[row]; });
+        spread(solids.by_gradient, [&](const unsigned int row) {
+          return flux(row) * answer[row] * volume[row];
+        });
+      }
     for (unsigned int i = 0; i < 3; ++i)
       {
-        transfer.deposit(scratch, by_row(n, [&](const unsigned int row) {
-                           return beta[row] * particles.body[row].velocity[i];
-                         }));
-        filter.spread(result.drag_source[i], scratch);
+        spread(result.drag_source[i], [&](const unsigned int row) {
+          return drag(row) * response.velocity[row][i];
+        });
+        spread(solids.flux[i], [&](const unsigned int row) {
+          return answer[row] * volume[row] * response.velocity[row][i];
+        });
       }
   }
 
@@ -280,8 +244,8 @@ namespace graupel
         for (unsigned int row = 0; row < particles.n_owned; ++row)
           {
             force[row][i] =
-              beta[row] * (velocity[row] - particles.body[row].velocity[i]) -
-              volume[row] * gradient[row];
+              answer[row] * (beta[row] * (velocity[row] - response.velocity[row][i]) -
+                             volume[row] * gradient[row]);
             fluid_force[i] += force[row][i];
           }
       }
@@ -295,21 +259,41 @@ namespace graupel
   void
   Exchange::keep_ledger(const FlowSolver &flow, const NodalVectorField &pressure_gradient)
   {
-    const double         share = result.shares_pressure ? 1. : 0.;
     dealii::Tensor<1, 3> lost;
+    double               traffic = 0.;
     for (unsigned int i = 0; i < 3; ++i)
       for (unsigned int k = 0; k < scratch.locally_owned_size(); ++k)
         {
           const double alpha = result.void_fraction.local_element(k);
+          const double share = !result.shares_pressure ? 0.
+                               : result.solids
+                                 ? result.solids->pressure_share.local_element(k)
+                                 : 1. - alpha;
           const double drag =
             result.drag.local_element(k) * flow.flux()[i].local_element(k) / alpha -
             result.drag_source[i].local_element(k);
-          lost[i] +=
-            nodes.measure().local_element(k) *
-            (drag - share * (1. - alpha) * pressure_gradient[i].local_element(k));
+          const double pressure = share * pressure_gradient[i].local_element(k);
+          const double measure  = nodes.measure().local_element(k);
+          lost[i] += measure * (drag - pressure);
+          traffic += measure * (std::abs(drag) + std::abs(pressure));
         }
-    lost              = dealii::Utilities::MPI::sum(lost, nodes.mesh.communicator());
-    const double size = std::max(lost.norm(), fluid_force.norm());
-    momentum_error    = size > 0. ? (lost - fluid_force).norm() / size : 0.;
+    lost           = dealii::Utilities::MPI::sum(lost, nodes.mesh.communicator());
+    traffic        = dealii::Utilities::MPI::sum(traffic, nodes.mesh.communicator());
+    momentum_error = traffic > 0. ? (lost - fluid_force).norm() / traffic : 0.;
+  }
+
+  double
+  Exchange::stable_step(const ParticleArrays &particles) const
+  {
+    double step = std::numeric_limits<double>::infinity();
+    for (unsigned int row = 0; row < particles.n_owned; ++row)
+      {
+        const double radius = particles.body[row].radius, a = law_alpha[row];
+        const double slope =
+          drags[particles.type[row]].slope(a, slip[row], radius) / (of_drag[row] * a * a);
+        step = std::min(
+          step, graupel::stable_step(flow_alpha[row], particles.mass[row], slope));
+      }
+    return dealii::Utilities::MPI::min(step, nodes.mesh.communicator());
   }
 } // namespace graupel

@@ -12,6 +12,7 @@ namespace graupel
   {
     cells.clear();
     weights.clear();
+    variance.clear();
     const auto &partitioner = *nodes.measure().get_partitioner();
     store.visit_cells([&](const auto                          &cell,
                           const unsigned int                   first_row,
@@ -31,9 +32,21 @@ namespace graupel
       cells.push_back(entry);
 
       weights.resize(std::max<std::size_t>(weights.size(), entry.end_row));
+      variance.resize(weights.size());
       for (unsigned int p = 0; p < locations.size(); ++p)
-        for (unsigned int a = 0; a < n_nodes; ++a)
-          weights[first_row + p][a] = nodes.fe.shape_value(a, locations[p]);
+        {
+          dealii::Tensor<1, 3> mean;
+          double               square = 0.;
+          for (unsigned int a = 0; a < n_nodes; ++a)
+            {
+              const double weight = nodes.fe.shape_value(a, locations[p]);
+              const auto   offset = dof_cell->vertex(a) - dof_cell->vertex(0);
+              mean += weight * offset;
+              square += weight * offset.norm_square();
+              weights[first_row + p][a] = weight;
+            }
+          variance[first_row + p] = square - mean.norm_square();
+        }
     });
   }
 

@@ -23,6 +23,15 @@ namespace graupel
         state.pressure_share[a]     = medium.shares_pressure ? alpha : 1.;
         state.resistance[a]         = medium.drag.local_element(node) / alpha;
         state.void_fraction_rate[a] = alpha_rate.local_element(node);
+        if (medium.solids)
+          {
+            const MovingSolids &solids  = *medium.solids;
+            state.pressure_share[a]     = 1. - solids.pressure_share.local_element(node);
+            state.solids_by_flux[a]     = solids.by_velocity.local_element(node) / alpha;
+            state.solids_by_gradient[a] = solids.by_gradient.local_element(node);
+            for (unsigned int i = 0; i < 3; ++i)
+              state.solid_flux[a][i] = solids.flux[i].local_element(node);
+          }
         for (unsigned int i = 0; i < 3; ++i)
           {
             state.flux[a][i]        = carrier[i].local_element(node);
@@ -200,16 +209,18 @@ namespace graupel
     for (unsigned int cell = 0; cell < space.n_cells(); ++cell)
       {
         const CellState state = gather(cell, medium);
-        double          alpha = 0., resistance = 0., speed = 0.;
+        double          alpha = 0., resistance = 0., speed = 0., of_solids = 0.;
         for (unsigned int a = 0; a < nodes_per_cell; ++a)
           {
-            alpha += state.void_fraction[a] / nodes_per_cell;
+            alpha +=
+              state.pressure_share[a] * (1. + state.solids_by_flux[a]) / nodes_per_cell;
+            of_solids += state.solids_by_gradient[a] / nodes_per_cell;
             resistance += state.resistance[a] / nodes_per_cell;
             speed += state.flux[a].norm() / state.void_fraction[a] / nodes_per_cell;
           }
         const double reaction = density * (scheme.now + 2. * speed / state.size) +
                                 resistance + viscosity / (state.size * state.size);
-        conductivity[cell] = alpha / reaction;
+        conductivity[cell] = alpha / reaction + of_solids;
         for (unsigned int q = 0; q < space.points_per_cell; ++q)
           {
             const ShapePoint &point = space.shapes[cell * space.points_per_cell + q];

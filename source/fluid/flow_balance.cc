@@ -43,8 +43,24 @@ namespace graupel
   }
 
   void
-  FlowSolver::find_worst_cell(Report &report) const
+  FlowSolver::find_worst_cell(const Medium &medium, Report &report) const
   {
+    NodalVectorField volume_flux = flux_now;
+    if (medium.solids)
+      {
+        const NodalVectorField gradient = pressure_gradient();
+        const MovingSolids    &solids   = *medium.solids;
+        for (unsigned int i = 0; i < 3; ++i)
+          {
+            for (unsigned int k = 0; k < volume_flux[i].locally_owned_size(); ++k)
+              volume_flux[i].local_element(k) +=
+                solids.flux[i].local_element(k) +
+                solids.by_velocity.local_element(k) * flux_now[i].local_element(k) /
+                  medium.void_fraction.local_element(k) -
+                solids.by_gradient.local_element(k) * gradient[i].local_element(k);
+            volume_flux[i].update_ghost_values();
+          }
+      }
     double       worst  = 0.;
     unsigned int number = 0;
     for (unsigned int cell = 0; cell < space.n_cells(); ++cell)
@@ -58,7 +74,7 @@ namespace graupel
                 const unsigned int node = space.cell_nodes[cell][a];
                 double             rate = point.value[a] * alpha_rate.local_element(node);
                 for (unsigned int i = 0; i < 3; ++i)
-                  rate += point.gradient[a][i] * carrier[i].local_element(node);
+                  rate += point.gradient[a][i] * volume_flux[i].local_element(node);
                 surplus += point.weight * rate;
               }
           }

@@ -14,6 +14,9 @@ namespace graupel
       double       pressure_share     = 0.;
       double       void_fraction_rate = 0.;
       double       flux_divergence    = 0.;
+      double       solids_by_gradient = 0.;
+      double       solid_divergence   = 0.;
+      Tensor<1, 3> solid_flux;
       Tensor<1, 3> flux;
       Tensor<1, 3> history;
       Tensor<1, 3> drag_source;
@@ -35,6 +38,9 @@ namespace graupel
           result.pressure_share += psi * state.pressure_share[a];
           result.void_fraction_rate += psi * state.void_fraction_rate[a];
           result.flux_divergence += point.gradient[a] * state.flux[a];
+          result.solids_by_gradient += psi * state.solids_by_gradient[a];
+          result.solid_divergence += point.gradient[a] * state.solid_flux[a];
+          result.solid_flux += psi * state.solid_flux[a];
           result.flux += psi * state.flux[a];
           result.history += psi * state.history[a];
           result.drag_source += psi * state.drag_source[a];
@@ -111,9 +117,10 @@ namespace graupel
         const unsigned int row    = unknowns_per_node * a;
         for (unsigned int b = 0; b < nodes_per_cell; ++b)
           {
-            const Tensor<1, 3> grad_b   = point.gradient[b];
-            const unsigned int column   = unknowns_per_node * b;
-            const double       friction = mu_alpha / state.void_fraction[b];
+            const Tensor<1, 3> grad_b      = point.gradient[b];
+            const unsigned int column      = unknowns_per_node * b;
+            const double       friction    = mu_alpha / state.void_fraction[b];
+            const double       with_solids = 1. + state.solids_by_flux[b];
             const double       diagonal =
               psi_a * galerkin[b] + upwind[a] * strong[b] + friction * (grad_a * grad_b);
             const double pressure_weight =
@@ -123,22 +130,27 @@ namespace graupel
                 matrix(row + i, column + i) += point.weight * diagonal;
                 for (unsigned int j = 0; j < 3; ++j)
                   matrix(row + i, column + j) +=
-                    point.weight * (friction * grad_a[j] * grad_b[i] +
-                                    (gamma - 2. / 3. * friction) * grad_a[i] * grad_b[j]);
+                    point.weight *
+                    (friction * grad_a[j] * grad_b[i] +
+                     (gamma * with_solids - 2. / 3. * friction) * grad_a[i] * grad_b[j]);
                 matrix(row + i, column + 3) += point.weight * pressure_weight * grad_b[i];
                 matrix(row + 3, column + i) +=
-                  point.weight * grad_a[i] * (tau * strong[b] - point.value[b]);
+                  point.weight * grad_a[i] *
+                  (tau * strong[b] - with_solids * point.value[b]);
               }
             matrix(row + 3, column + 3) +=
-              point.weight * tau * here.pressure_share * (grad_a * grad_b);
+              point.weight * (tau * here.pressure_share + here.solids_by_gradient) *
+              (grad_a * grad_b);
           }
 
         for (unsigned int i = 0; i < 3; ++i)
           rhs[row + i] +=
-            point.weight * (psi_a * galerkin_force[i] + upwind[a] * residual_source[i] -
-                            gamma * grad_a[i] * here.void_fraction_rate);
-        rhs[row + 3] += point.weight * (tau * (grad_a * residual_source) -
-                                        psi_a * state.void_fraction_rate[a]);
+            point.weight *
+            (psi_a * galerkin_force[i] + upwind[a] * residual_source[i] -
+             gamma * grad_a[i] * (here.void_fraction_rate + here.solid_divergence));
+        rhs[row + 3] +=
+          point.weight * (tau * (grad_a * residual_source) + grad_a * here.solid_flux -
+                          psi_a * state.void_fraction_rate[a]);
       }
   }
 

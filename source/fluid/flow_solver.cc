@@ -25,6 +25,18 @@ namespace graupel
     }
   } // namespace
 
+  MovingSolids::MovingSolids(const NodalSpace &nodes)
+  {
+    for (NodalVector *vector : {&by_velocity, &by_gradient, &pressure_share})
+      {
+        nodes.initialize(*vector);
+        vector->update_ghost_values();
+      }
+    for (NodalVector &component : flux)
+      nodes.initialize(component);
+    update_ghosts(flux);
+  }
+
   Medium::Medium(const NodalSpace &nodes)
   {
     for (NodalVector *vector : {&void_fraction, &drag, &volume_source})
@@ -120,8 +132,12 @@ namespace graupel
                                               : scheme;
     if (known_media == 0)
       alpha_old = medium.void_fraction;
-    alpha_rate.equ(scheme.now, medium.void_fraction);
-    alpha_rate.add(scheme.old, alpha_old, scheme.older, alpha_older);
+    alpha_rate = 0.; // of solids, the flux comes in its place
+    if (!medium.solids)
+      {
+        alpha_rate.equ(scheme.now, medium.void_fraction);
+        alpha_rate.add(scheme.old, alpha_old, scheme.older, alpha_older);
+      }
     alpha_rate -= medium.volume_source;
     alpha_rate.update_ghost_values();
     const double ratio = second ? step / last_step : 0.;
@@ -170,10 +186,9 @@ namespace graupel
       }
     report.mass_imbalance       = mass_error() / throughput;
     report.worst_node_imbalance = worst_node / throughput;
-    find_worst_cell(report);
-
-    flux_old = flux_now;
+    flux_old                    = flux_now;
     publish();
+    find_worst_cell(medium, report);
     update_unresolved(medium);
     alpha_older = alpha_old;
     alpha_old   = medium.void_fraction;

@@ -155,10 +155,17 @@ namespace graupel
   FlowSolver::Report
   CoupledFlow::flow_past_bed(const double step)
   {
-    particles_and_fluid->update_drag(dem.particles());
-    const auto report              = solver->step(particles_and_fluid->medium(), step);
-    dem.particles().external_force = particles_and_fluid->forces(
-      dem.particles(), *solver, parameters.fluid.density, parameters.dem.gravity());
+    const double               density = parameters.fluid.density;
+    const dealii::Tensor<1, 3> gravity = parameters.dem.gravity();
+    if (std::isfinite(step))
+      particles_and_fluid->update_drag(dem.particles(),
+                                       particle_response(dem, gravity, density, step));
+    else
+      particles_and_fluid->update_drag(dem.particles());
+    const auto report = solver->step(particles_and_fluid->medium(), step);
+    dem.particles().external_force =
+      particles_and_fluid->forces(dem.particles(), *solver, density, gravity);
+    longest_step = particles_and_fluid->stable_step(dem.particles());
     return report;
   }
 

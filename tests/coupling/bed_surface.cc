@@ -66,7 +66,7 @@ namespace
           exchange.update_bed(dem.store(), dem.particles());
           exchange.update_drag(dem.particles());
           flow.step(exchange.medium(), FlowSolver::steady);
-          exchange.forces(dem.particles(), flow, fluid.density, dealii::Tensor<1, 3>());
+          exchange.forces(dem.particles(), flow, fluid.density, {});
           EXPECT_LE(exchange.momentum_imbalance(), 1e-10);
         }
       return flow.mean_pressure(VesselMesh::bottom) - flow.mean_pressure(VesselMesh::top);

@@ -245,8 +245,9 @@ namespace
     // Solid volume to 1e-12, momentum to 1e-10, with particles in motion; and the
     // bed as a whole feels the pressure drop: with slip at the wall and as much
     // momentum entering as leaving, the force on it is the drop times the area.
-    RandomPacking         packing(2e-3, local);
-    const FluidProperties fluid;
+    RandomPacking              packing(2e-3, local);
+    const FluidProperties      fluid;
+    const dealii::Tensor<1, 3> gravity({0., 0., -9.81});
     for (unsigned int row = 0; row < packing.dem.particles().n_owned; ++row)
       for (unsigned int i = 0; i < 3; ++i)
         packing.dem.particles().body[row].velocity[i] =
@@ -264,10 +265,7 @@ namespace
         exchange.update_bed(packing.dem.store(), packing.dem.particles());
         exchange.update_drag(packing.dem.particles());
         flow.step(exchange.medium(), 1e-2);
-        exchange.forces(packing.dem.particles(),
-                        flow,
-                        fluid.density,
-                        dealii::Tensor<1, 3>({0., 0., -9.81}));
+        exchange.forces(packing.dem.particles(), flow, fluid.density, gravity);
         EXPECT_LE(exchange.solid_volume_error(), 1e-12);
         EXPECT_LE(exchange.momentum_imbalance(), 1e-10);
       }

@@ -2,35 +2,14 @@
 #define graupel_coupling_exchange_h
 
 #include <graupel/base/cost_sheet.h>
-#include <graupel/closures/scaling.h>
+#include <graupel/coupling/drag_of_type.h>
 #include <graupel/coupling/filter.h>
+#include <graupel/coupling/particle_response.h>
 #include <graupel/coupling/particle_transfer.h>
-#include <graupel/dem/particles/particle_arrays.h>
 #include <graupel/fluid/flow_solver.h>
 
 namespace graupel
 {
-  /** The drag on the particles of one type. */
-  struct DragOfType
-  {
-    /** For a sphere of this radius. */
-    Drag drag;
-    /** Radius of that simulated sphere [m]. */
-    double radius;
-    /** Others: by polydisperse_drag_factor(), or each by the law for its own diameter. */
-    bool is_mixture = false;
-
-    /** beta_p [kg/s] of a simulated sphere of this @p particle_radius [m]; see
-     * Drag::beta(). */
-    double
-    beta(const double alpha, const double slip, const double particle_radius) const
-    {
-      const double y = particle_radius / radius;
-      return is_mixture ? polydisperse_drag_factor(alpha, y) * drag.beta(alpha, slip)
-                        : drag.beta(alpha, slip, y);
-    }
-  };
-
   /** How particles and fluid feel each other, beside the drag law. */
   struct CouplingParameters
   {
@@ -93,7 +72,16 @@ namespace graupel
    * The surface: chi is 1 where the solid fraction is above half of its mean over the
    * particles, and 0 below; 1 - alpha' = (1 - alpha) max(1, chi / S chi), a normalised
    * convolution. Source of those: Knutsson & Westin, CVPR (1993),
-   * doi:10.1109/CVPR.1993.341081.
+   * doi:10.1109/CVPR.1993.341081. It belongs to beds: where 1 - alpha' would be below 0.4
+   * for the particle and for the mean of all, the factor goes to 1, which it is below
+   * 0.25.
+   *
+   * Its own volume is a part phi_0 of the filtered solid fraction at a particle. Among
+   * others it fills the hole that they leave around it; a lone sphere would take itself
+   * for a bed. So phi_0 counts with no more than what the others, whose part phi_n is,
+   * would fill that hole with: h / (1 - h) phi_n, h the part of the filter's kernel
+   * within one diameter. At solid fractions above 0.17, with the default filter, it
+   * counts in full.
    */
   class Exchange
   {
@@ -108,7 +96,8 @@ namespace graupel
              CostSheet                     &costs);
 
     /** Void fraction of the flow and of the drag law, from where the particles are
-     * (the store must be current). */
+     * (the store must be current). Throws InputError("Coupling/filter length", ...) on
+     * all ranks where less void is left than spheres can leave. */
     void update_bed(const ParticleStore &store, const ParticleArrays &particles);
 
     /**
@@ -117,6 +106,20 @@ namespace graupel
      * naming the place, where the void fraction or the drag coefficient cannot be.
      */
     void update_drag(const ParticleArrays &particles);
+
+    /**
+     * The same for particles that answer within the fluid's step: their velocities v in
+     * drag and continuity are those of its end, so that the step is stable whatever
+     * its length and however light they are. With the mobility k of a particle
+     * and D = 1 / (1 + beta k),
+     *
+     *   F_p = D (beta_p ((W S u)_p - v_p) - V_p (W S grad p)_p),
+     *   B = S M^-1 W^T D beta,  C = S M^-1 W^T (D beta v),
+     *
+     * with @p response's velocity v at F = 0, and in place of 1 - alpha the solids carry
+     * S M^-1 W^T (D V) of the pressure gradient.
+     */
+    void update_drag(const ParticleArrays &particles, const ParticleResponse &response);
 
     /**
      * Takes the slip velocities of the next update_drag() from @p flux [m/s] through
@@ -142,6 +145,12 @@ namespace graupel
                                              const double                density,
                                              const dealii::Tensor<1, 3> &gravity);
 
+    /**
+     * The longest step [s] that the particles of the last forces() bear: the least
+     * graupel::stable_step() of them all, infinite without particles. Collective.
+     */
+    double stable_step(const ParticleArrays &particles) const;
+
     /** |momentum that the fluid lost - what the particles got| over the former [-]. */
     double
     momentum_imbalance() const
@@ -165,14 +174,24 @@ namespace graupel
 
   private:
     void deposit_void_fraction(const ParticleArrays &particles);
+    void check_void_fraction(const ParticleArrays &particles) const;
     // Of the law at each own particle.
-    std::vector<double> law_void_fractions();
+    std::vector<double> law_void_fractions(const ParticleArrays &particles);
+    // 1 - alpha at each own particle, without its own part where it is alone.
+    std::vector<double> surrounding_solids(const ParticleArrays &particles) const;
     // chi / S chi, at least 1, at each own particle: above 1 at the surface.
-    std::vector<double> surface_factors(const std::vector<double> &alpha);
+    std::vector<double> surface_factors(const std::vector<double> &solid);
+    // Mean over all particles.
+    double mean(const std::vector<double> &values) const;
+    void   find_drag_coefficients(const ParticleArrays &particles);
+    // x = S M^-1 W^T of a function of the own rows.
+    template <typename Function>
+    void spread(NodalVector &x, const Function &value);
     // A power of the void fraction, smoothed, at each own particle.
     std::vector<double> smooth_power(const int exponent);
     void keep_ledger(const FlowSolver &flow, const NodalVectorField &pressure_gradient);
 
+    const double                  filter_length;
     const LawVoidFraction         law;
     const std::vector<DragOfType> drags;
     const NodalSpace             &nodes;
@@ -186,7 +205,11 @@ namespace graupel
     NodalVectorField     smooth_velocity; // S u [m/s]
     NodalVectorField     smooth_gradient; // S grad p [Pa/m]
     std::vector<double>  volume, beta;    // by row [m^3], [kg/s]
+    std::vector<double>  answer;          // D by row
+    ParticleResponse     response;        // by row
+    std::vector<double>  flow_alpha;      // alpha by row
     std::vector<double>  law_alpha;       // alpha' by row
+    std::vector<double>  slip;            // of the law, by row [m/s]
     std::vector<double>  of_slip;         // W S alpha^-1 by row
     std::vector<double>  of_drag;         // W S alpha^-2, in model B alpha^-1, by row
     dealii::Tensor<1, 3> fluid_force;

@@ -25,6 +25,14 @@ namespace graupel
     /** W f at each own particle; the ghosts of @p field must be up to date. */
     void sample(std::vector<double> &values, const NodalVector &field) const;
 
+    /** By row: how far a particle's weights lie from it, sum of w_pk |x_k - x_p|^2 [m^2].
+     */
+    const std::vector<double> &
+    variances() const
+    {
+      return variance;
+    }
+
   private:
     static constexpr unsigned int n_nodes = dealii::GeometryInfo<3>::vertices_per_cell;
 
@@ -38,6 +46,7 @@ namespace graupel
     const NodalSpace                        &nodes;
     std::vector<Cell>                        cells;
     std::vector<std::array<double, n_nodes>> weights; // by row
+    std::vector<double>                      variance;
   };
 } // namespace graupel
 

@@ -12,7 +12,7 @@
  * volumetric flux q = alpha u and the pressure p, without its hydrostatic part,
  *
  *   rho dq/dt + rho div(q q / alpha) = -w grad p + div(alpha tau(u)) - (B u - C) + f
- *   div q = -d(alpha)/dt + s,
+ *   div (q + q_s) = -d(alpha)/dt + s,
  *
  * with u = q / alpha node by node, w = alpha where both phases share the pressure
  * gradient (model A) and 1 where the fluid has all of it (model B), B [kg/m^3/s] the drag
@@ -56,6 +56,12 @@ namespace graupel
     std::array<double, nodes_per_cell> pressure_share;
     /** d(alpha)/dt - s [1/s]. */
     std::array<double, nodes_per_cell> void_fraction_rate;
+    /** q_s, the flux of solids that answer to the fluid: a part that does not [m/s], */
+    std::array<dealii::Tensor<1, 3>, nodes_per_cell> solid_flux{};
+    /** the factor of q [-], */
+    std::array<double, nodes_per_cell> solids_by_flux{};
+    /** and the one of -grad p [m^3 s/kg]. */
+    std::array<double, nodes_per_cell> solids_by_gradient{};
     /** The flux that carries momentum: known from earlier [m/s]. */
     std::array<dealii::Tensor<1, 3>, nodes_per_cell> flux;
     /** The known part of dq/dt [m/s^2]. */

@@ -7,8 +7,34 @@
 #include <graupel/fluid/flow_parameters.h>
 #include <graupel/fluid/time_scheme.h>
 
+#include <optional>
+
 namespace graupel
 {
+  /**
+   * How solids that move answer to the fluid within its step. At the step's end they
+   * have the volume flux
+   *
+   *   q_s = flux + by_velocity u - by_gradient grad p,   div (q + q_s) = s,
+   *
+   * so that neither the drag nor the pressure can drive them against a fluid that knows
+   * only where they were. Every vector with ghosts up to date.
+   */
+  struct MovingSolids
+  {
+    /** The part that does not depend on the fluid [m/s]. */
+    NodalVectorField flux;
+    /** Flux for the fluid's interstitial velocity [-]. */
+    NodalVector by_velocity;
+    /** Flux for the pressure gradient [m^3 s/kg]. */
+    NodalVector by_gradient;
+    /** Part of the pressure gradient that acts on them [-]. */
+    NodalVector pressure_share;
+
+    /** No solids. */
+    explicit MovingSolids(const NodalSpace &nodes);
+  };
+
   /** What the fluid flows through; every vector with ghosts up to date. */
   struct Medium
   {
@@ -21,6 +47,9 @@ namespace graupel
     /** Whether the solids carry their share of the pressure gradient (model A)
      * or the fluid all of it (model B). */
     bool shares_pressure = true;
+    /** Solids that move. Without, they carry what shares_pressure says, and d(alpha)/dt
+     * is that from one medium to the next. */
+    std::optional<MovingSolids> solids;
     /** Any further force on the fluid [N/m^3]. */
     NodalVectorField force;
     /** s, volume that appears per volume and time [1/s]. */
@@ -103,10 +132,10 @@ namespace graupel
 
     /**
      * Solves for the time @p step [s] after the last one, through @p medium.
-     * The rate of the void fraction is taken from this and the last media by
-     * the same formula as the acceleration. With the step FlowSolver::steady all
-     * rates are 0: one linear solve towards the steady state. Throws SolverFailure
-     * where a solve does not converge, and then is as it was before.
+     * The rate of the void fraction is that of its solids or, without these, taken from
+     * this and the last media by the same formula as the acceleration. With the step
+     * FlowSolver::steady all rates are 0: one linear solve towards the steady state.
+     * Throws SolverFailure where a solve does not converge, and then is as it was before.
      */
     Report step(const Medium &medium, const double step);
 
@@ -175,7 +204,7 @@ namespace graupel
     void         refresh_preconditioner();
     double       mass_error() const;
     double       node_error();
-    void         find_worst_cell(Report &report) const;
+    void         find_worst_cell(const Medium &medium, Report &report) const;
     double       take_carrier();
     void         restore_solution();
     void         publish();

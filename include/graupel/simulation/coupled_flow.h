@@ -64,6 +64,16 @@ namespace graupel
      */
     void load(const double time);
 
+    /**
+     * The longest step [s] that follows the answer of the particles to the fluid, as of
+     * the last step or look at the bed; infinite without particles.
+     */
+    double
+    stable_step() const
+    {
+      return longest_step;
+    }
+
     /** Pressure at the bottom minus pressure at the top [Pa]. */
     double pressure_drop() const;
 
@@ -105,7 +115,8 @@ namespace graupel
     VesselMesh          &mesh;
     Dem                 &dem;
     CostSheet           &costs;
-    double               superficial_velocity = 0.; // [m/s]
+    double               superficial_velocity = 0.;                              // [m/s]
+    double               longest_step = std::numeric_limits<double>::infinity(); // [s]
 
     // Built anew with every new mesh or partition.
     std::optional<NodalSpace> node_space;

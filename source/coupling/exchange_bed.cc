@@ -1,0 +1,174 @@
+#include <graupel/base/parameters.h>
+#include <graupel/coupling/exchange.h>
+
+#include <sstream>
+
+namespace graupel
+{
+  namespace
+  {
+    // The surface of the bed lies between these parts of the mean solid fraction.
+    constexpr double outside = 0.4, inside = 0.6;
+    // Not even spheres in the densest order leave less void [-].
+    constexpr double densest = 0.26;
+    // Less than this is no void fraction of spheres, whatever the filter's overshoot [-].
+    constexpr double impossible = 0.1;
+    // A bed is no looser than the second; what is looser than the first is none [-].
+    constexpr double no_bed = 0.25, bed = 0.4;
+
+    // Part of a Gaussian in three dimensions within this many standard deviations.
+    double
+    gaussian_within(const double x)
+    {
+      return std::erf(x / std::sqrt(2.)) -
+             std::sqrt(2. / dealii::numbers::PI) * x * std::exp(-0.5 * x * x);
+    }
+  } // namespace
+
+  double
+  Exchange::mean(const std::vector<double> &values) const
+  {
+    double sum = 0.;
+    for (const double value : values)
+      sum += value;
+    const MPI_Comm communicator = nodes.mesh.communicator();
+    const double   n =
+      dealii::Utilities::MPI::sum(static_cast<double>(values.size()), communicator);
+    return dealii::Utilities::MPI::sum(sum, communicator) / std::max(1., n);
+  }
+
+  void
+  Exchange::deposit_void_fraction(const ParticleArrays &particles)
+  {
+    volume.resize(particles.n_owned);
+    for (unsigned int row = 0; row < particles.n_owned; ++row)
+      volume[row] = sphere_volume(particles.body[row].radius);
+    transfer.deposit(scratch, volume);
+    filter.spread(solid_fraction, scratch);
+
+    double on_mesh = 0., in_particles = 0.;
+    for (unsigned int k = 0; k < solid_fraction.locally_owned_size(); ++k)
+      {
+        result.void_fraction.local_element(k) = 1. - solid_fraction.local_element(k);
+        on_mesh +=
+          nodes.measure().local_element(k) * (1. - result.void_fraction.local_element(k));
+      }
+    result.void_fraction.update_ghost_values();
+    for (const double v : volume)
+      in_particles += v;
+    on_mesh      = dealii::Utilities::MPI::sum(on_mesh, nodes.mesh.communicator());
+    in_particles = dealii::Utilities::MPI::sum(in_particles, nodes.mesh.communicator());
+    volume_error = in_particles > 0. ? std::abs(on_mesh / in_particles - 1.) : 0.;
+  }
+
+  void
+  Exchange::check_void_fraction(const ParticleArrays &particles) const
+  {
+    const MPI_Comm communicator = nodes.mesh.communicator();
+    double         least = 1., size = 0., diameter = 0.;
+    for (unsigned int k = 0; k < solid_fraction.locally_owned_size(); ++k)
+      if (const double alpha = 1. - solid_fraction.local_element(k); !(alpha >= least))
+        {
+          least = alpha;
+          size  = std::cbrt(nodes.measure().local_element(k));
+        }
+    const double least_of_all = dealii::Utilities::MPI::min(least, communicator);
+    if (least_of_all >= impossible)
+      return;
+    size = dealii::Utilities::MPI::max(least == least_of_all ? size : 0., communicator);
+    for (unsigned int row = 0; row < particles.n_owned; ++row)
+      diameter = std::max(diameter, 2. * particles.body[row].radius);
+    diameter = dealii::Utilities::MPI::max(diameter, communicator);
+    std::ostringstream reason;
+    reason << "the void fraction on the mesh falls to " << least_of_all
+           << ", and spheres leave at least " << densest
+           << " between them: a filter of length " << filter_length
+           << " m does not spread spheres of up to " << diameter
+           << " m far enough over cells of about " << size
+           << " m. Take auto, or a length of at least 0.7 diameters, or cells (Mesh/cell "
+              "size) of several diameters";
+    throw InputError("Coupling/filter length", reason.str());
+  }
+
+  std::vector<double>
+  Exchange::surrounding_solids(const ParticleArrays &particles) const
+  {
+    std::vector<double> solid(flow_alpha.size());
+    for (unsigned int row = 0; row < solid.size(); ++row)
+      {
+        // Depositing and sampling spread it, too.
+        const double all = 1. - flow_alpha[row];
+        const double variance =
+          2. * filter_length * filter_length + 2. / 3. * transfer.variances()[row];
+        const double deviation =
+          std::sqrt(std::max(variance, std::numeric_limits<double>::min()));
+        const double own = std::min(
+          all,
+          volume[row] / std::pow(2. * dealii::numbers::PI * deviation * deviation, 1.5));
+        const double hole = gaussian_within(2. * particles.body[row].radius / deviation);
+        const double others = all - own;
+        solid[row] = others + std::min(own, hole / std::max(1. - hole, 1e-6) * others);
+      }
+    return solid;
+  }
+
+  std::vector<double>
+  Exchange::surface_factors(const std::vector<double> &solid)
+  {
+    const double mean_solid = std::max(mean(solid), 1e-6);
+    for (unsigned int k = 0; k < scratch.locally_owned_size(); ++k)
+      {
+        const double share = solid_fraction.local_element(k) / mean_solid;
+        scratch.local_element(k) =
+          std::clamp((share - outside) / (inside - outside), 0., 1.);
+      }
+    scratch.update_ghost_values();
+    filter.smooth(smooth_scratch, scratch);
+
+    std::vector<double> factor, smooth_chi, within;
+    transfer.sample(factor, scratch);
+    transfer.sample(smooth_chi, smooth_scratch);
+    for (unsigned int row = 0; row < factor.size(); ++row)
+      {
+        factor[row] =
+          smooth_chi[row] > 0. ? std::max(1., factor[row] / smooth_chi[row]) : 1.;
+        within.push_back(solid[row] * factor[row]);
+      }
+    const double mean_within = mean(within);
+    for (unsigned int row = 0; row < factor.size(); ++row)
+      {
+        const double solid_of_bed = std::max(within[row], mean_within);
+        const double is_bed =
+          std::clamp((solid_of_bed - no_bed) / (bed - no_bed), 0., 1.);
+        if (is_bed < 1.)
+          factor[row] = 1. + is_bed * (factor[row] - 1.);
+      }
+    return factor;
+  }
+
+  std::vector<double>
+  Exchange::law_void_fractions(const ParticleArrays &particles)
+  {
+    transfer.sample(flow_alpha, result.void_fraction);
+    const std::vector<double> solid = surrounding_solids(particles);
+    std::vector<double>       alpha(solid.size(), 1.);
+    if (law.sharp_surface)
+      alpha = surface_factors(solid);
+    for (unsigned int row = 0; row < solid.size(); ++row)
+      alpha[row] = std::max(1. - solid[row] * alpha[row] * law.solid_ratio,
+                            std::min(flow_alpha[row], densest));
+    return alpha;
+  }
+
+  std::vector<double>
+  Exchange::smooth_power(const int exponent)
+  {
+    for (unsigned int k = 0; k < scratch.locally_owned_size(); ++k)
+      scratch.local_element(k) =
+        std::pow(result.void_fraction.local_element(k), exponent);
+    filter.smooth(smooth_scratch, scratch);
+    std::vector<double> values;
+    transfer.sample(values, smooth_scratch);
+    return values;
+  }
+} // namespace graupel
