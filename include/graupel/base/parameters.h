@@ -79,6 +79,9 @@ namespace graupel
      */
     std::string explain(const InputError &error) const;
 
+    /** The value of every declared entry as text, by its path. */
+    std::map<std::string, std::string> texts() const;
+
     /** Paths "Section/name" of every declared entry, sorted. */
     const std::vector<std::string> &known_parameters() const;
 
