@@ -31,6 +31,9 @@ namespace graupel
     parameters.filling.mass       = 0.;
     parameters.filling.bed_height = parameters.original_bed.measured_height;
     parameters.filling.start_from.clear();
+    parameters.filling.file.clear();
+    if (parameters.filling.method != "rain")
+      parameters.filling.method = "packing";
     parameters.settling.target_void_fraction =
       parameters.original_bed.target_void_fraction;
     return parameters;
@@ -67,7 +70,7 @@ namespace graupel
                        MPI_Comm                   communicator)
   {
     const auto &choice = parameters.original_bed;
-    if (choice.void_fraction == "simulated")
+    if (choice.void_fraction == "simulated" || !bed.exists())
       return 1.;
     double ratio;
     if (const auto given = choice.number())

@@ -1,5 +1,7 @@
 #include <graupel/base/parameters.h>
 #include <graupel/closures/bed_correlations.h>
+#include <graupel/simulation/observers/probes.h>
+#include <graupel/simulation/original_bed.h>
 #include <graupel/simulation/run_parameters.h>
 
 #include <iomanip>
@@ -44,7 +46,8 @@ namespace graupel
     settling.check();
     fluid.check();
     coupling.check();
-    original_bed.check();
+    check_original_bed();
+    read_probes(output.probes);
     drag.check(dem.particles.scale, dem.particles.diameter);
     flow.check();
     sweep.check();
@@ -61,6 +64,27 @@ namespace graupel
       "Coupling/filter length",
       "a filter longer than the vessel's diameter would smear the bed over all of it; "
       "one particle diameter is usual");
+  }
+
+  void
+  RunParameters::check_original_bed() const
+  {
+    original_bed.check();
+    if (original_bed.void_fraction != "measured")
+      return;
+    const RunParameters original = parameters_of_original_bed(*this);
+    try
+      {
+        original.filling.check(cylinder, original.dem);
+      }
+    catch (const InputError &error)
+      {
+        std::ostringstream text;
+        text << "a bed of original particles " << original_bed.measured_height
+             << " m high cannot be filled into the vessel of Geometry/height = "
+             << cylinder.height << " m (" << error.what() << ")";
+        throw InputError("Original bed/measured height", text.str());
+      }
   }
 
   double

@@ -52,6 +52,9 @@ namespace graupel
      * sizes that follow from the parameters.
      */
     std::string describe() const;
+
+  private:
+    void check_original_bed() const;
   };
 } // namespace graupel
 

@@ -10,6 +10,8 @@ namespace graupel
     constexpr double lifted_load = 0.05;
     // Part of a case, at its end, over which its numbers are means.
     constexpr double averaged_part = 0.25;
+    // A bed further above the floor than this part of its height does not stand on it.
+    constexpr double most_gap = 0.5;
     // Slices of the bed over which Ergun's gradient is summed.
     constexpr unsigned int n_slices = 32;
   } // namespace
@@ -69,6 +71,9 @@ namespace graupel
   CaseView::whole_bed() const
   {
     const auto &bed = end.bed();
+    if (bed.exists() &&
+        bed.bottom - end.state.dem.space().floor() > most_gap * bed.height())
+      return {};
     if (bed.exists())
       return WholeBed{bed.bottom, bed.height(), bed.mean_void_fraction};
     const BedResult &rest = end.state.rest;
@@ -172,7 +177,7 @@ namespace graupel
     Value
     gradient_deviation_from_ergun(const CaseView &flow)
     {
-      if (!flow.middle_gradient)
+      if (!flow.middle_gradient || !flow.whole_bed())
         return {};
       return relative_deviation(
         flow.middle_gradient,
@@ -182,7 +187,7 @@ namespace graupel
     Value
     wall_channelling(const CaseView &flow)
     {
-      if (flow.radial.empty() || middle_velocity(flow) == 0.)
+      if (flow.radial.empty() || !flow.whole_bed() || middle_velocity(flow) == 0.)
         return {};
       return wall_channelling_deviation(flow.radial,
                                         flow.end.state.parameters.fluid,

@@ -37,8 +37,9 @@ namespace graupel
     /** Mean of a monitor over the last quarter of the case. */
     Value mean(const std::string &monitor) const;
 
-    /** The bed now, or the one before the flow if all of its particles are there still
-     * but no bed can be made out; else nothing. */
+    /** The bed now, if it stands on the floor of the vessel or near it; or the one before
+     * the flow if all of its particles are there still but no bed can be made out; else
+     * nothing. */
     struct WholeBed
     {
       double bottom, height, void_fraction;
