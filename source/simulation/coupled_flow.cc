@@ -195,8 +195,8 @@ namespace graupel
   CoupledFlow::cross_section(const double z) const
   {
     // That of the discrete cylinder, so that what enters through it has its velocity.
-    return parameters.mesh.file.empty() ? solver->boundary_area(VesselMesh::bottom) :
-                                          dem.space().fluid_cross_section(z);
+    return parameters.mesh.file.empty() ? solver->boundary_area(VesselMesh::bottom)
+                                        : dem.space().fluid_cross_section(z);
   }
 
   double

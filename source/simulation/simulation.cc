@@ -1,4 +1,3 @@
-#include <graupel/base/parameters.h>
 #include <graupel/dem/bed/bed_profiles.h>
 #include <graupel/simulation/observers/wall_forces.h>
 #include <graupel/simulation/original_bed.h>
@@ -16,9 +15,6 @@ namespace graupel
   {
     // Simulated time between two rows of monitors.csv while the bed is packed [s].
     constexpr double packing_observation = 1e-2;
-
-    // Behind filling and settling.
-    constexpr std::size_t first_flow_phase = 2;
 
     // Tells the height of the bed, its void fraction and how it is supported.
     std::string
@@ -61,44 +57,14 @@ namespace graupel
   }
 
   void
-  Simulation::resume()
-  {
-    checkpoint =
-      read_checkpoint(files.path("checkpoint"), state.parameters, changed_parameters);
-    check_cases(checkpoint->first);
-  }
-
-  void
-  Simulation::check_cases(const RunState &saved) const
-  {
-    const auto        velocities = state.parameters.sweep.cases();
-    const std::string parameter  = "Flow/superficial velocities";
-    const auto        expect     = [&](const std::size_t n, const Value &there) {
-      const bool is_same = n < velocities.size() && velocities[n] == there;
-      std::ostringstream text;
-      text << "case " << n + 1 << " of the checkpoint "
-           << (n < saved.cases.size() ? "has ended" : "is under way") << " with ";
-      if (there)
-        text << *there << " m/s";
-      else
-        text << "no fluid";
-      text << "; keep it in its place, or begin anew without --resume";
-      require(is_same, parameter, text.str());
-    };
-    for (std::size_t n = 0; n < saved.cases.size(); ++n)
-      expect(n, saved.cases[n]["nominal_velocity"]);
-    if (saved.phase_number >= first_flow_phase && !saved.phase.empty())
-      expect(saved.cases.size(), saved.velocity);
-  }
-
-  void
   Simulation::run()
   {
     std::ostringstream mesh_line;
     mesh_line << "mesh: " << state.mesh.triangulation().n_global_active_cells()
               << " cells, on " << mpi::n_mpi_processes(state.communicator) << " rank(s)";
     state.progress.say(mesh_line.str());
-    if (const std::string difference = state.dem.space().difference(); !difference.empty())
+    if (const std::string difference = state.dem.space().difference();
+        !difference.empty())
       state.progress.say("warning: " + difference);
     if (checkpoint)
       go_on_from(checkpoint->first);
@@ -196,8 +162,8 @@ namespace graupel
   Simulation::present_bed()
   {
     state.dem.synchronise();
-    const auto bed = state.bed();
-    BedResult &rest = state.rest;
+    const auto bed                = state.bed();
+    BedResult &rest               = state.rest;
     rest.particle_count           = state.dem.n_global();
     rest.particle_diameter        = state.parameters.simulated_diameter();
     rest.original_diameter        = state.dem.original_sauter_diameter();
@@ -251,107 +217,5 @@ namespace graupel
     summary.cells        = state.mesh.triangulation().n_global_active_cells();
     summary.volume       = state.mesh.volume();
     write_summary(files.path("summary.json"), summary, state.communicator);
-  }
-
-  RunState
-  Simulation::run_state() const
-  {
-    RunState saved;
-    saved.parameters           = state.parameters.texts;
-    saved.time                 = state.time;
-    saved.next_output          = next_output;
-    saved.next_adaption        = state.next_adaption;
-    saved.rest                 = state.rest;
-    saved.cases                = series.results;
-    saved.last_velocity        = series.last_velocity;
-    saved.has_begun            = series.has_begun;
-    for (const Feed &feed : series.feeds)
-      saved.feeds.push_back(to_bytes(feed.state()));
-    saved.ledger               = state.ledger;
-    saved.costs                = summary.costs;
-    saved.wall_seconds         = Progress::steady_seconds() - started;
-    saved.cpu_seconds          = mpi::sum(state.cpu_seconds(), state.communicator);
-    saved.costs.particle_steps = mpi::sum(summary.costs.particle_steps, state.communicator);
-    saved.costs.contact_steps  = mpi::sum(summary.costs.contact_steps, state.communicator);
-    saved.written              = files.written();
-    saved.has_fluid            = state.fluid.has_value();
-    if (state.fluid)
-      saved.fluid = state.fluid->history();
-    saved.phase_number = phase_number;
-    if (phase_now != nullptr)
-      saved.phase = phase_now->save();
-    if (phase_number >= first_flow_phase && phase_number < n_phases())
-      saved.velocity = state.parameters.sweep.cases()[phase_number - first_flow_phase];
-    return saved;
-  }
-
-  void
-  Simulation::save()
-  {
-    const CostSheet::Scope timing(summary.costs, CostSheet::output);
-    write_checkpoint(
-      files.path("checkpoint"),
-      run_state(),
-      state.dem.state(),
-      [&](const std::string &file) {
-        if (state.fluid)
-          state.fluid->save(file);
-      },
-      state.communicator);
-    next_save =
-      Progress::steady_seconds() + 60. * state.parameters.output.checkpoint_interval;
-  }
-
-  void
-  Simulation::save_if_due()
-  {
-    const double minutes = state.parameters.output.checkpoint_interval;
-    if (next_save == 0.)
-      next_save = started + 60. * minutes;
-    const bool due = minutes > 0. && Progress::steady_seconds() >= next_save;
-    // One clock for all ranks.
-    if (mpi::broadcast(state.communicator, due, 0))
-      save();
-  }
-
-  void
-  Simulation::go_on_from(const RunState &saved)
-  {
-    if (saved.has_fluid)
-      state.mesh.load(checkpoint_fields(files.path("checkpoint")));
-    state.dem.restore(checkpoint->second);
-
-    state.time           = saved.time;
-    next_output          = saved.next_output;
-    state.next_adaption  = saved.next_adaption;
-    state.rest           = saved.rest;
-    series.results       = saved.cases;
-    series.last_velocity = saved.last_velocity;
-    series.has_begun     = saved.has_begun;
-    for (std::size_t n = 0; n < series.feeds.size() && n < saved.feeds.size(); ++n)
-      series.feeds[n].restore(from_bytes<Feed::State>(saved.feeds[n]));
-    state.ledger = saved.ledger;
-    phase_number = saved.phase_number;
-    if (mpi::this_mpi_process(state.communicator) == 0)
-      {
-        summary.costs    = saved.costs;
-        state.cpu_before = saved.cpu_seconds;
-      }
-    summary.costs.fluid_steps = saved.costs.fluid_steps;
-    started -= saved.wall_seconds;
-    files.continue_from(saved.written, state.time);
-    next_save =
-      Progress::steady_seconds() + 60. * state.parameters.output.checkpoint_interval;
-    if (saved.has_fluid)
-      {
-        state.make_fluid();
-        state.fluid->load(saved.fluid);
-      }
-    std::ostringstream text;
-    text << "resumed at " << state.time << " s, " << state.dem.n_global()
-         << " particles, " << series.results.size() << " flow case(s) done";
-    state.progress.say(text.str());
-    for (const std::string &change : changed_parameters)
-      state.progress.say("changed: " + change);
   }
 } // namespace graupel

@@ -21,9 +21,9 @@ namespace graupel
   SweepParameters::case_duration(const double superficial_velocity,
                                  const double height) const
   {
-    return duration > 0.          ? duration
+    return duration > 0.           ? duration
            : stop_when == "steady" ? maximum_time
-                                 : flow_throughs * height / superficial_velocity;
+                                   : flow_throughs * height / superficial_velocity;
   }
 
   void
@@ -43,7 +43,8 @@ namespace graupel
       "transient: fluid and particles move through time; steady: each case is the steady "
       "flow through the resting bed, found in some ten linear systems, after which the "
       "particles are held against it for one steady window; automatic: steady while the "
-      "bed rests against the flow, and transient from where it does not; particles alone: "
+      "bed rests against the flow, and transient from where it does not; particles "
+      "alone: "
       "no fluid at all, the particles move for Flow/duration.",
       dealii::Patterns::Selection("transient|steady|automatic|particles alone"));
     prm.add_parameter("maximum solves",
@@ -76,10 +77,10 @@ namespace graupel
       flow_throughs,
       "How often the superficial velocity must cross the height of the vessel: "
       "the case lasts n H / V_s [-].");
-    prm.add_parameter(
-      "duration",
-      duration,
-      "Simulated time of a case, in place of a number of flow-throughs; 0 for these [s].");
+    prm.add_parameter("duration",
+                      duration,
+                      "Simulated time of a case, in place of a number of flow-throughs; "
+                      "0 for these [s].");
     prm.add_parameter(
       "steady tolerance",
       steady_tolerance,
@@ -163,12 +164,12 @@ namespace graupel
       "--resume "
       "goes on, beside those at the ends of settling and of each flow case and before a "
       "step that fails; 0 for no more than these [min].");
-    prm.add_parameter(
-      "probes",
-      probes,
-      "Points at which the fluid is watched in probes.csv: NAME: x y z, separated by bars "
-      "(|), as in \"low: 0 0 0.01 | high: 0 0 0.15\" [m].",
-      dealii::Patterns::Anything());
+    prm.add_parameter("probes",
+                      probes,
+                      "Points at which the fluid is watched in probes.csv: NAME: x y z, "
+                      "separated by bars "
+                      "(|), as in \"low: 0 0 0.01 | high: 0 0 0.15\" [m].",
+                      dealii::Patterns::Anything());
     prm.add_parameter(
       "report", report, "Whether report.html is made at the end of the run.");
     prm.leave_subsection();

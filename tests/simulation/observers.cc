@@ -132,7 +132,8 @@ TEST(Probes, AreReadByName)
   ASSERT_EQ(points.size(), 2u);
   EXPECT_EQ(points[1].name, "high");
   EXPECT_DOUBLE_EQ(points[1].place[2], 0.15);
-  for (const char *bad : {"0 0 0", "a: 0 0", "a: 0 0 0 0", ": 0 0 0", "a: 0 0 0 | a: 0 0 1"})
+  for (const char *bad :
+       {"0 0 0", "a: 0 0", "a: 0 0 0 0", ": 0 0 0", "a: 0 0 0 | a: 0 0 1"})
     EXPECT_THROW(read_probes(bad), InputError) << bad;
 }
 
@@ -142,7 +143,7 @@ TEST(GoingOn, RefusesByNameWhatMayNotChange)
                              {"Fluid/density", "1.2"},
                              {"Flow/time step", "1e-3"},
                              {"Geometry/diameter", "0.012"}};
-  ParameterTexts       here = there;
+  ParameterTexts       here  = there;
   here["Particles/diameter"] = "0.002";
   EXPECT_TRUE(check_changes(here, there, Standing::within_phase, "x").empty());
   here["Flow/time step"] = "5e-4";

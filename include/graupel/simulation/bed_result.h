@@ -12,13 +12,13 @@ namespace graupel
   struct BedResult
   {
     unsigned int particle_count    = 0;
-    double       particle_diameter = 0.; // simulated, Sauter mean [m]
-    double       original_diameter = 0.; // Sauter mean [m]
-    double       scale             = 1.; // [-]
-    double       solid_volume      = 0.; // [m^3]
-    Value        bottom;                 // [m]
-    Value        height;                 // [m]
-    Value        mean_void_fraction;     // [-]
+    double       particle_diameter = 0.;        // simulated, Sauter mean [m]
+    double       original_diameter = 0.;        // Sauter mean [m]
+    double       scale             = 1.;        // [-]
+    double       solid_volume      = 0.;        // [m^3]
+    Value        bottom;                        // [m]
+    Value        height;                        // [m]
+    Value        mean_void_fraction;            // [-]
     double       mean_coordination_number = 0.; // [-]
     double       vessel_diameter          = 0.; // [m]
     double       vessel_height            = 0.; // [m]

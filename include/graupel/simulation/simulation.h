@@ -72,12 +72,15 @@ namespace graupel
     std::optional<std::pair<RunState, DemState>> checkpoint;
     std::vector<std::string>                     changed_parameters;
 
+    /** Behind filling and settling. */
+    static constexpr std::size_t first_flow_phase = 2;
+
     std::size_t phase_number = 0;
     Phase      *phase_now    = nullptr; // between its steps
     double      next_output;            // [s]
     double      next_observation = 0.;  // of packing [s]
-    double      started;        // wall clock; before that of a resumed run [s]
-    double      next_save = 0.; // wall clock [s]
+    double      started;                // wall clock; before that of a resumed run [s]
+    double      next_save = 0.;         // wall clock [s]
   };
 } // namespace graupel
 

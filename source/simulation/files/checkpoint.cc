@@ -164,8 +164,8 @@ namespace graupel
       }
     changes = check_changes(parameters.texts,
                             result.first.parameters,
-                            result.first.phase.empty() ? Standing::between_phases :
-                                                         Standing::within_phase,
+                            result.first.phase.empty() ? Standing::between_phases
+                                                       : Standing::within_phase,
                             "the checkpoint " + folder);
     return result;
   }

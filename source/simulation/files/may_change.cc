@@ -14,7 +14,7 @@ namespace graupel
       // Of a section, with its slash, or of a parameter.
       const char *path;
       // For a bed that another run starts from, between phases, within one.
-      bool for_bed, between, within;
+      bool        for_bed, between, within;
       const char *why;
     };
 
@@ -32,7 +32,8 @@ namespace graupel
        true,
        true,
        true,
-       "cases that have ended or begun keep theirs; further ones may be added or changed"},
+       "cases that have ended or begun keep theirs; further ones may be added or "
+       "changed"},
       {"Flow/time step", true, true, true, "how long steps are, not where they lead"},
       {"Flow/Courant number", true, true, true, "the same"},
       {"Flow/maximum solves", true, true, true, "when to give up"},
@@ -67,9 +68,9 @@ namespace graupel
     bool
     may(const Rule &rule, const Standing standing)
     {
-      return standing == Standing::settled_bed    ? rule.for_bed :
-             standing == Standing::between_phases ? rule.between :
-                                                    rule.within;
+      return standing == Standing::settled_bed      ? rule.for_bed
+             : standing == Standing::between_phases ? rule.between
+                                                    : rule.within;
     }
 
     // "0.30, 1e-3" is the same as "0.3, 0.001".
@@ -110,9 +111,9 @@ namespace graupel
                 path,
                 where + " has " + (other->second.empty() ? "nothing" : other->second) +
                   " instead" +
-                  (standing == Standing::settled_bed ?
-                     "; set it back, or fill a bed of its own" :
-                     "; set it back, or begin anew without --resume") +
+                  (standing == Standing::settled_bed
+                     ? "; set it back, or fill a bed of its own"
+                     : "; set it back, or begin anew without --resume") +
                   " (doc/going-on.md has what may change)");
         changes.push_back(path + " is " + value + " from here on, was " + other->second);
       }
@@ -127,8 +128,9 @@ namespace graupel
                        "`--resume` within a phase | why |\n"
                        "| --- | --- | --- | --- | --- |\n";
     for (const Rule &rule : rules)
-      text += std::string("| ") + (*rule.path ? "`" + std::string(rule.path) + "`" : "others") +
-              " | " + word(rule.for_bed) + " | " + word(rule.between) + " | " +
+      text += std::string("| ") +
+              (*rule.path ? "`" + std::string(rule.path) + "`" : "others") + " | " +
+              word(rule.for_bed) + " | " + word(rule.between) + " | " +
               word(rule.within) + " | " + rule.why + " |\n";
     return text;
   }

@@ -237,10 +237,9 @@ namespace graupel
         stream << slab.height << ',' << slab.pressure << ',' << slab.void_fraction << ','
                << slab.flux << ',';
         if (bed && ergun)
-          stream << *ergun * std::clamp((bed->bottom + bed->height - slab.height) /
-                                           bed->height,
-                                         0.,
-                                         1.);
+          stream << *ergun *
+                      std::clamp(
+                        (bed->bottom + bed->height - slab.height) / bed->height, 0., 1.);
         stream << '\n';
       }
   }

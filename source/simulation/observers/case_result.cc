@@ -23,11 +23,10 @@ namespace graupel
     const SimulationState &state = end.state;
     if (!state.fluid)
       return;
-    const auto n_slabs = static_cast<unsigned int>(
-      std::max(10l,
-               std::lround(state.parameters.cylinder.height /
-                           state.parameters.mesh.cell_size)));
-    axial = axial_profile(fields(), n_slabs);
+    const auto n_slabs = static_cast<unsigned int>(std::max(
+      10l,
+      std::lround(state.parameters.cylinder.height / state.parameters.mesh.cell_size)));
+    axial              = axial_profile(fields(), n_slabs);
     if (end.bed().exists())
       look_at_middle();
   }
@@ -46,13 +45,11 @@ namespace graupel
   CaseView::look_at_middle()
   {
     const SimulationState &state = end.state;
-    const double           low   = end.bed().bottom, high = end.bed().top;
+    const double           low = end.bed().bottom, high = end.bed().top;
     const double lower = low + 0.25 * (high - low), upper = low + 0.75 * (high - low);
-    radial =
-      radial_profile(fields(), state.parameters.output.annuli, lower, upper);
-    middle_void_fraction =
-      1. - state.observables.solid_volume_between(lower, upper) /
-             state.dem.space().volume(lower, upper);
+    radial = radial_profile(fields(), state.parameters.output.annuli, lower, upper);
+    middle_void_fraction = 1. - state.observables.solid_volume_between(lower, upper) /
+                                  state.dem.space().volume(lower, upper);
     // The slabs must tell the two heights apart.
     if (axial.size() >= 2 && upper - lower > axial[1].height - axial[0].height)
       middle_gradient =
@@ -62,9 +59,8 @@ namespace graupel
   Value
   CaseView::mean(const std::string &monitor) const
   {
-    return mean_since(course.rows,
-                      course.begin + (1. - averaged_part) * course.simulated_time,
-                      monitor);
+    return mean_since(
+      course.rows, course.begin + (1. - averaged_part) * course.simulated_time, monitor);
   }
 
   std::optional<CaseView::WholeBed>
@@ -112,9 +108,7 @@ namespace graupel
     last_of(const std::string &monitor)
     {
       const std::size_t place = place_of(monitor, monitors());
-      return [place](const CaseView &flow) {
-        return monitors()[place].value(flow.end);
-      };
+      return [place](const CaseView &flow) { return monitors()[place].value(flow.end); };
     }
 
     // A number of the case's course.
@@ -199,7 +193,7 @@ namespace graupel
     Value
     bed_rise(const CaseView &flow)
     {
-      const auto &bed = flow.end.bed();
+      const auto &bed  = flow.end.bed();
       const auto &rest = flow.end.state.rest;
       if (!bed.exists() || !rest.height)
         return {};
@@ -213,8 +207,7 @@ namespace graupel
       const Value            support = flow.mean("support_force");
       if (!state.fluid || !support || state.dem.n_global() == 0)
         return {};
-      const double net_weight =
-        state.dem.weight() - state.fluid->buoyancy();
+      const double net_weight = state.dem.weight() - state.fluid->buoyancy();
       return *support <= lifted_load * net_weight ? 1. : 0.;
     }
   } // namespace
@@ -255,10 +248,7 @@ namespace graupel
        "in the middle half",
        "%",
        100.},
-      {"wall_channelling_deviation",
-       "-",
-       "wall-channelling deviation",
-       wall_channelling},
+      {"wall_channelling_deviation", "-", "wall-channelling deviation", wall_channelling},
       {"bed_height", "m", "bed height", last_of("bed_height"), "bed height", "mm", 1e3},
       {"bed_bottom",
        "m",
@@ -270,12 +260,7 @@ namespace graupel
        mean_of("expanded_height")},
       {"bed_rise", "m", "top of the bed less that before the flow", bed_rise},
       {"mean_void_fraction", "-", "mean void fraction", last_of("mean_void_fraction")},
-      {"bottom_force",
-       "N",
-       "bottom force",
-       mean_of("bottom_force"),
-       "bottom force",
-       "N"},
+      {"bottom_force", "N", "bottom force", mean_of("bottom_force"), "bottom force", "N"},
       {"wall_force", "N", "wall force", mean_of("wall_force")},
       {"support_force",
        "N",

@@ -21,8 +21,8 @@ namespace graupel
     {
       const auto         colon = text.find(':');
       ProbePoint         point;
-      std::istringstream numbers(colon == std::string::npos ? "" :
-                                                              text.substr(colon + 1));
+      std::istringstream numbers(colon == std::string::npos ? ""
+                                                            : text.substr(colon + 1));
       require(numbers >> point.place[0] >> point.place[1] >> point.place[2] &&
                 (numbers >> std::ws).eof(),
               parameter,
@@ -30,7 +30,8 @@ namespace graupel
                 "\" is not a probe: write NAME: x y z, a name and three numbers in "
                 "metres; probes are separated by bars (|)");
       point.name = dealii::Utilities::trim(text.substr(0, colon));
-      require(!point.name.empty() && point.name.find_first_of(",\" ") == std::string::npos,
+      require(!point.name.empty() &&
+                point.name.find_first_of(",\" ") == std::string::npos,
               parameter,
               "a probe needs a name without blanks, commas or quotes, for its columns");
       return point;
@@ -82,7 +83,8 @@ namespace graupel
       if (!places.point_found(n))
         outside = points[n].name;
     outside = dealii::Utilities::MPI::broadcast(mesh.communicator(), outside, 0);
-    require(outside.empty(), parameter, "the probe " + outside + " lies outside the mesh");
+    require(
+      outside.empty(), parameter, "the probe " + outside + " lies outside the mesh");
   }
 
   std::string

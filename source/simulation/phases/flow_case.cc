@@ -22,7 +22,7 @@ namespace graupel
       serialize(Archive &archive, const unsigned int)
       {
         archive &begin &ramp_from &wall_seconds &cpu_seconds;
-        archive &times &values &strategy;
+        archive &times &values                  &strategy;
       }
     };
   } // namespace
@@ -94,9 +94,9 @@ namespace graupel
       fed = fed.value_or(0.) + feed.n_inserted();
     Value velocity;
     if (frame.velocity)
-      velocity = state.parameters.sweep.mode == "transient" ?
-                   frame.velocity_at(frame.time()) :
-                   *frame.velocity;
+      velocity = state.parameters.sweep.mode == "transient"
+                   ? frame.velocity_at(frame.time())
+                   : *frame.velocity;
     return Moment(state, velocity, fed);
   }
 
@@ -112,8 +112,8 @@ namespace graupel
   {
     state.progress.finish_phase();
     const CostSheet::Scope timing(state.costs, CostSheet::output);
-    const double cpu = dealii::Utilities::MPI::sum(state.cpu_seconds() - cpu_start,
-                                                   state.communicator);
+    const double           cpu =
+      dealii::Utilities::MPI::sum(state.cpu_seconds() - cpu_start, state.communicator);
     const CaseCourse course{number,
                             frame.velocity,
                             frame.begin,

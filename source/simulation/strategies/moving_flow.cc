@@ -34,8 +34,7 @@ namespace graupel
   MovingFlow::MovingFlow(FlowFrame &frame)
     : frame(frame)
     , duration(frame.state.parameters.sweep.case_duration(
-        frame.velocity.value_or(0.),
-        frame.state.parameters.cylinder.height))
+        frame.velocity.value_or(0.), frame.state.parameters.cylinder.height))
     , step_limit(frame.state.parameters.sweep.time_step)
   {
   }
@@ -125,8 +124,7 @@ namespace graupel
   void
   MovingFlow::resume(const std::string &saved)
   {
-    std::tie(step_limit, ruled_by) =
-      from_bytes<std::pair<double, std::string>>(saved);
+    std::tie(step_limit, ruled_by) = from_bytes<std::pair<double, std::string>>(saved);
   }
 
   ParticlesAlone::ParticlesAlone(FlowFrame &frame)

@@ -17,8 +17,8 @@ namespace graupel
     double                   next_output   = 0.; // [s]
     double                   next_adaption = 0.; // [s]
     BedResult                rest;
-    std::vector<CaseResult>  cases; // those that have ended
-    double                   last_velocity = 0.; // V of the last of them [m/s]
+    std::vector<CaseResult>  cases;                 // those that have ended
+    double                   last_velocity = 0.;    // V of the last of them [m/s]
     bool                     has_begun     = false; // the first flow case
     std::vector<std::string> feeds;
     Ledger                   ledger;

@@ -15,8 +15,8 @@ namespace graupel
   public:
     explicit GrowingTable(const std::string &path);
 
-    /** Adds @p row, after @p header where the file is new. Throws std::runtime_error where
-     * the file cannot be written. */
+    /** Adds @p row, after @p header where the file is new. Throws std::runtime_error
+     * where the file cannot be written. */
     void add(const std::string &header, const std::string &row);
 
     /** Goes on behind the rows of an earlier run up to @p time [s]; later ones are

@@ -22,9 +22,9 @@ namespace graupel
   };
 
   /**
-   * What a run that goes on from @p there may have otherwise: throws InputError naming the
-   * first parameter of @p here that differs and may not; gives a sentence for each other
-   * difference. @p where names the file of the earlier run. The table is that of
+   * What a run that goes on from @p there may have otherwise: throws InputError naming
+   * the first parameter of @p here that differs and may not; gives a sentence for each
+   * other difference. @p where names the file of the earlier run. The table is that of
    * doc/going-on.md.
    */
   std::vector<std::string> check_changes(const ParameterTexts &here,

@@ -45,7 +45,7 @@ namespace graupel
   private:
     void find_points(const VesselMesh &mesh);
 
-    const std::vector<ProbePoint>                        points;
+    const std::vector<ProbePoint>                    points;
     dealii::Utilities::MPI::RemotePointEvaluation<3> places;
   };
 } // namespace graupel

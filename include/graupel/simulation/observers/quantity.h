@@ -28,7 +28,7 @@ namespace graupel
     /** Collective; the same on every rank. */
     std::function<Value(const Seen &)> value;
     /** How the log calls it, and the factor and unit there; empty: not told. */
-    std::string told = "";
+    std::string told        = "";
     std::string told_unit   = "";
     double      told_factor = 1.;
   };
@@ -109,8 +109,8 @@ namespace graupel
   {
     std::string text = "| column | unit | meaning |\n| --- | --- | --- |\n";
     for (const auto &quantity : table)
-      text +=
-        "| `" + quantity.name + "` | " + quantity.unit + " | " + quantity.meaning + " |\n";
+      text += "| `" + quantity.name + "` | " + quantity.unit + " | " + quantity.meaning +
+              " |\n";
     return text;
   }
 

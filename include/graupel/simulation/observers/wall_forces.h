@@ -5,9 +5,9 @@
 
 namespace graupel
 {
-  /** Columns of wall-forces.csv: time, then particles_on_NAME_x, _y, _z of each wall of the
-   * particles and, in a run with a fluid, fluid_on_NAME_x, _y, _z of each boundary of the
-   * mesh [N]. */
+  /** Columns of wall-forces.csv: time, then particles_on_NAME_x, _y, _z of each wall of
+   * the particles and, in a run with a fluid, fluid_on_NAME_x, _y, _z of each boundary of
+   * the mesh [N]. */
   std::string wall_forces_header(const SimulationState &state);
 
   /** The forces of particles (mean of the last step) and fluid (pressure and viscosity)

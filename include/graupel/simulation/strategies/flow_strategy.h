@@ -53,7 +53,7 @@ namespace graupel
     }
 
     /** For a checkpoint. */
-    virtual std::string save() const             = 0;
+    virtual std::string save() const                     = 0;
     virtual void        resume(const std::string &saved) = 0;
   };
 
