@@ -1,7 +1,6 @@
 #include <graupel/base/parameters.h>
 #include <graupel/closures/bed_correlations.h>
-#include <graupel/simulation/observers/probes.h>
-#include <graupel/simulation/original_bed.h>
+#include <graupel/simulation/probe_points.h>
 #include <graupel/simulation/run_parameters.h>
 
 #include <iomanip>
@@ -66,13 +65,31 @@ namespace graupel
       "one particle diameter is usual");
   }
 
+  RunParameters
+  RunParameters::of_original_bed() const
+  {
+    RunParameters original       = *this;
+    original.dem.particles.scale = 1.;
+    for (ParticleType &type : original.dem.particles.further_types)
+      type.scale = 1.;
+    original.filling.count      = 0;
+    original.filling.mass       = 0.;
+    original.filling.bed_height = original_bed.measured_height;
+    original.filling.start_from.clear();
+    original.filling.file.clear();
+    if (filling.method != "rain")
+      original.filling.method = "packing";
+    original.settling.target_void_fraction = original_bed.target_void_fraction;
+    return original;
+  }
+
   void
   RunParameters::check_original_bed() const
   {
     original_bed.check();
     if (original_bed.void_fraction != "measured")
       return;
-    const RunParameters original = parameters_of_original_bed(*this);
+    const RunParameters original = of_original_bed();
     try
       {
         original.filling.check(cylinder, original.dem);

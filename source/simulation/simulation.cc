@@ -1,6 +1,6 @@
 #include <graupel/dem/bed/bed_profiles.h>
 #include <graupel/simulation/observers/wall_forces.h>
-#include <graupel/simulation/original_bed.h>
+#include <graupel/simulation/phases/original_bed.h>
 #include <graupel/simulation/phases/packing_phases.h>
 #include <graupel/simulation/simulation.h>
 

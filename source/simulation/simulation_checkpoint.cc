@@ -1,5 +1,6 @@
 #include <graupel/base/parameters.h>
 #include <graupel/simulation/simulation.h>
+#include <graupel/simulation/state/bytes.h>
 
 #include <sstream>
 

@@ -1,4 +1,4 @@
-#include <graupel/simulation/profiles.h>
+#include <graupel/simulation/observers/profiles.h>
 
 #include <gtest/gtest.h>
 

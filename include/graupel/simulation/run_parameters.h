@@ -53,6 +53,9 @@ namespace graupel
      */
     std::string describe() const;
 
+    /** Of a short bed of the original particles, to be measured. */
+    RunParameters of_original_bed() const;
+
   private:
     void check_original_bed() const;
   };

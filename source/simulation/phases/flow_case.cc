@@ -1,5 +1,6 @@
 #include <graupel/simulation/observers/case_result.h>
 #include <graupel/simulation/phases/flow_case.h>
+#include <graupel/simulation/state/bytes.h>
 
 #include <boost/serialization/string.hpp>
 #include <boost/serialization/vector.hpp>

@@ -1,4 +1,5 @@
 #include <graupel/simulation/phases/packing_phases.h>
+#include <graupel/simulation/state/bytes.h>
 
 #include <boost/serialization/utility.hpp>
 

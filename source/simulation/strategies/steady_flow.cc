@@ -1,4 +1,4 @@
-#include <graupel/simulation/phases/phase.h>
+#include <graupel/simulation/state/bytes.h>
 #include <graupel/simulation/strategies/steady_flow.h>
 
 #include <boost/serialization/utility.hpp>

@@ -5,7 +5,7 @@
 #include <graupel/fluid/flow_solver.h>
 #include <graupel/simulation/files/growing_table.h>
 #include <graupel/simulation/observers/case_result.h>
-#include <graupel/simulation/profiles.h>
+#include <graupel/simulation/observers/profiles.h>
 
 #include <fstream>
 

@@ -2,7 +2,7 @@
 #define graupel_simulation_observers_case_result_h
 
 #include <graupel/simulation/observers/monitors.h>
-#include <graupel/simulation/profiles.h>
+#include <graupel/simulation/observers/profiles.h>
 
 namespace graupel
 {

@@ -2,7 +2,7 @@
 #define graupel_simulation_observers_monitors_h
 
 #include <graupel/simulation/observers/quantity.h>
-#include <graupel/simulation/simulation_state.h>
+#include <graupel/simulation/state/simulation_state.h>
 
 namespace graupel
 {

@@ -1,22 +1,13 @@
 #ifndef graupel_simulation_observers_probes_h
 #define graupel_simulation_observers_probes_h
 
-#include <graupel/simulation/simulation_state.h>
+#include <graupel/simulation/probe_points.h>
+#include <graupel/simulation/state/simulation_state.h>
 
 #include <deal.II/base/mpi_remote_point_evaluation.h>
 
 namespace graupel
 {
-  /** A point at which the fluid is watched. */
-  struct ProbePoint
-  {
-    std::string      name;
-    dealii::Point<3> place; // [m]
-  };
-
-  /** Reads "NAME: x y z | NAME: x y z", the value of Output/probes. Throws InputError. */
-  std::vector<ProbePoint> read_probes(const std::string &text);
-
   /**
    * Pressure, void fraction and interstitial velocity of the fluid at points, linear
    * within the cells.

@@ -1,7 +1,7 @@
 #ifndef graupel_simulation_observers_wall_forces_h
 #define graupel_simulation_observers_wall_forces_h
 
-#include <graupel/simulation/simulation_state.h>
+#include <graupel/simulation/state/simulation_state.h>
 
 namespace graupel
 {

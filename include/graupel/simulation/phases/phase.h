@@ -3,10 +3,6 @@
 
 #include <graupel/simulation/observers/monitors.h>
 
-#include <boost/archive/binary_iarchive.hpp>
-#include <boost/archive/binary_oarchive.hpp>
-
-#include <sstream>
 #include <string>
 
 namespace graupel
@@ -60,29 +56,6 @@ namespace graupel
     /** Takes the place of begin(): goes on where save() was. */
     virtual void resume(const std::string &saved) = 0;
   };
-
-  /** @p record, which boost's archives know, as bytes. */
-  template <class Record>
-  std::string
-  to_bytes(const Record &record)
-  {
-    std::ostringstream              stream(std::ios::binary);
-    boost::archive::binary_oarchive archive(stream);
-    archive << record;
-    return stream.str();
-  }
-
-  /** The record of to_bytes(). */
-  template <class Record>
-  Record
-  from_bytes(const std::string &bytes)
-  {
-    std::istringstream              stream(bytes, std::ios::binary);
-    boost::archive::binary_iarchive archive(stream);
-    Record                          record;
-    archive >> record;
-    return record;
-  }
 } // namespace graupel
 
 #endif

@@ -1,4 +1,4 @@
-#include <graupel/simulation/profiles.h>
+#include <graupel/simulation/observers/profiles.h>
 
 #include <deal.II/fe/fe_values.h>
 #include <deal.II/numerics/vector_tools_evaluate.h>

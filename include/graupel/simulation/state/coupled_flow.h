@@ -1,5 +1,5 @@
-#ifndef graupel_simulation_coupled_flow_h
-#define graupel_simulation_coupled_flow_h
+#ifndef graupel_simulation_state_coupled_flow_h
+#define graupel_simulation_state_coupled_flow_h
 
 #include <graupel/coupling/exchange.h>
 #include <graupel/dem/dem.h>

@@ -1,11 +1,11 @@
-#ifndef graupel_simulation_simulation_state_h
-#define graupel_simulation_simulation_state_h
+#ifndef graupel_simulation_state_simulation_state_h
+#define graupel_simulation_state_simulation_state_h
 
 #include <graupel/base/ledger.h>
 #include <graupel/base/progress.h>
 #include <graupel/dem/bed/bed_observables.h>
-#include <graupel/simulation/bed_result.h>
-#include <graupel/simulation/coupled_flow.h>
+#include <graupel/simulation/state/bed_result.h>
+#include <graupel/simulation/state/coupled_flow.h>
 
 namespace graupel
 {

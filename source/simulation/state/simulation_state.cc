@@ -1,4 +1,4 @@
-#include <graupel/simulation/simulation_state.h>
+#include <graupel/simulation/state/simulation_state.h>
 
 #include <ctime>
 #include <sstream>

@@ -1,5 +1,5 @@
-#ifndef graupel_simulation_profiles_h
-#define graupel_simulation_profiles_h
+#ifndef graupel_simulation_observers_profiles_h
+#define graupel_simulation_observers_profiles_h
 
 #include <graupel/closures/bed_correlations.h>
 #include <graupel/mesh/nodal_space.h>

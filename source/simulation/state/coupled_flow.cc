@@ -1,4 +1,4 @@
-#include <graupel/simulation/coupled_flow.h>
+#include <graupel/simulation/state/coupled_flow.h>
 
 #include <deal.II/distributed/solution_transfer.h>
 

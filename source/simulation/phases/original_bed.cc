@@ -1,5 +1,5 @@
 #include <graupel/closures/bed_correlations.h>
-#include <graupel/simulation/original_bed.h>
+#include <graupel/simulation/phases/original_bed.h>
 #include <graupel/simulation/phases/packing_phases.h>
 
 #include <iomanip>
@@ -21,24 +21,6 @@ namespace graupel
     }
   } // namespace
 
-  RunParameters
-  parameters_of_original_bed(RunParameters parameters)
-  {
-    parameters.dem.particles.scale = 1.;
-    for (ParticleType &type : parameters.dem.particles.further_types)
-      type.scale = 1.;
-    parameters.filling.count      = 0;
-    parameters.filling.mass       = 0.;
-    parameters.filling.bed_height = parameters.original_bed.measured_height;
-    parameters.filling.start_from.clear();
-    parameters.filling.file.clear();
-    if (parameters.filling.method != "rain")
-      parameters.filling.method = "packing";
-    parameters.settling.target_void_fraction =
-      parameters.original_bed.target_void_fraction;
-    return parameters;
-  }
-
   double
   measure_original_bed(const RunParameters &parameters,
                        Progress            &progress,
@@ -46,7 +28,7 @@ namespace graupel
                        MPI_Comm             communicator)
   {
     SimulationState state(
-      parameters_of_original_bed(parameters), costs, progress, communicator, bed_name);
+      parameters.of_original_bed(), costs, progress, communicator, bed_name);
     FillingPhase filling(state.parameters.filling, state);
     run_whole(filling);
     SettlingPhase settling(state.parameters.settling, state);

@@ -1,5 +1,5 @@
-#ifndef graupel_simulation_original_bed_h
-#define graupel_simulation_original_bed_h
+#ifndef graupel_simulation_phases_original_bed_h
+#define graupel_simulation_phases_original_bed_h
 
 #include <graupel/base/progress.h>
 #include <graupel/dem/bed/bed_observables.h>
@@ -7,9 +7,6 @@
 
 namespace graupel
 {
-  /** The parameters of a short bed of the original particles, to be measured. */
-  RunParameters parameters_of_original_bed(RunParameters parameters);
-
   /**
    * Settles a short bed of the original particles, prepared as the simulated one is,
    * and gives its solid fraction over its middle half [-]. Collective.

@@ -1,13 +1,10 @@
-#ifndef graupel_simulation_bed_result_h
-#define graupel_simulation_bed_result_h
+#ifndef graupel_simulation_state_bed_result_h
+#define graupel_simulation_state_bed_result_h
 
-#include <graupel/simulation/observers/quantity.h>
+#include <optional>
 
 namespace graupel
 {
-  class Dem;
-  struct RunParameters;
-
   /** The bed before the flow; lengths of the bed have no value where there is none. */
   struct BedResult
   {
@@ -16,8 +13,8 @@ namespace graupel
     double       original_diameter = 0.;        // Sauter mean [m]
     double       scale             = 1.;        // [-]
     double       solid_volume      = 0.;        // [m^3]
-    Value        bottom;                        // [m]
-    Value        height;                        // [m]
+    std::optional<double> bottom;        // [m]
+    std::optional<double> height;        // [m]
     Value        mean_void_fraction;            // [-]
     double       mean_coordination_number = 0.; // [-]
     double       vessel_diameter          = 0.; // [m]

@@ -1,0 +1,51 @@
+#include <graupel/base/parameters.h>
+#include <graupel/simulation/probe_points.h>
+
+#include <deal.II/base/utilities.h>
+
+#include <set>
+#include <sstream>
+
+namespace graupel
+{
+  namespace
+  {
+    const char *const parameter = "Output/probes";
+
+    ProbePoint
+    read_probe(const std::string &text)
+    {
+      const auto         colon = text.find(':');
+      ProbePoint         point;
+      std::istringstream numbers(colon == std::string::npos ? ""
+                                                            : text.substr(colon + 1));
+      require(numbers >> point.place[0] >> point.place[1] >> point.place[2] &&
+                (numbers >> std::ws).eof(),
+              parameter,
+              "\"" + text +
+                "\" is not a probe: write NAME: x y z, a name and three numbers in "
+                "metres; probes are separated by bars (|)");
+      point.name = dealii::Utilities::trim(text.substr(0, colon));
+      require(!point.name.empty() &&
+                point.name.find_first_of(",\" ") == std::string::npos,
+              parameter,
+              "a probe needs a name without blanks, commas or quotes, for its columns");
+      return point;
+    }
+  } // namespace
+
+  std::vector<ProbePoint>
+  read_probes(const std::string &text)
+  {
+    std::vector<ProbePoint> points;
+    std::set<std::string>   names;
+    for (const auto &entry : dealii::Utilities::split_string_list(text, '|'))
+      {
+        points.push_back(read_probe(entry));
+        require(names.insert(points.back().name).second,
+                parameter,
+                "there are two probes named " + points.back().name);
+      }
+    return points;
+  }
+} // namespace graupel
