@@ -8,17 +8,17 @@ namespace graupel
   /** The bed before the flow; lengths of the bed have no value where there is none. */
   struct BedResult
   {
-    unsigned int particle_count    = 0;
-    double       particle_diameter = 0.;        // simulated, Sauter mean [m]
-    double       original_diameter = 0.;        // Sauter mean [m]
-    double       scale             = 1.;        // [-]
-    double       solid_volume      = 0.;        // [m^3]
-    std::optional<double> bottom;        // [m]
-    std::optional<double> height;        // [m]
-    Value        mean_void_fraction;            // [-]
-    double       mean_coordination_number = 0.; // [-]
-    double       vessel_diameter          = 0.; // [m]
-    double       vessel_height            = 0.; // [m]
+    unsigned int          particle_count    = 0;
+    double                particle_diameter = 0.;        // simulated, Sauter mean [m]
+    double                original_diameter = 0.;        // Sauter mean [m]
+    double                scale             = 1.;        // [-]
+    double                solid_volume      = 0.;        // [m^3]
+    std::optional<double> bottom;                        // [m]
+    std::optional<double> height;                        // [m]
+    std::optional<double> mean_void_fraction;            // [-]
+    double                mean_coordination_number = 0.; // [-]
+    double                vessel_diameter          = 0.; // [m]
+    double                vessel_height            = 0.; // [m]
     /** Solid fraction at which the drag law is evaluated over that of the bed [-]. */
     double original_solid_ratio = 1.;
   };
