@@ -72,7 +72,7 @@ namespace graupel
     , gravity(input.gravity())
     , particle_store(mesh)
     , halo(mesh.cylinder(),
-           2. * input.largest_radius() + skin,
+           2. * (1. + ParticleType::size_tolerance) * input.largest_radius() + skin,
            input.walls.is_periodic(),
            mesh.communicator())
     , list(skin, near_skin)
@@ -83,22 +83,38 @@ namespace graupel
                input.reference_force(),
                input.largest_radius())
     , wall_loads(walls.size())
+    , number_by_type(materials.n_types(), 0)
+    , departed_by_type(materials.n_types(), 0)
+    , volume_by_type(materials.n_types(), 0.)
+    , departed_volume(materials.n_types(), 0.)
   {
   }
 
   void
   Dem::insert(const std::vector<dealii::Point<3>> &positions, const Vector &velocity)
   {
+    const auto   type   = input.types().front();
+    const double radius = 0.5 * type.scale * type.sizes.sauter_diameter(type.diameter);
     std::vector<NewParticle> added;
     for (const auto &position : positions)
-      added.push_back(
-        {position, input.particles.simulated_radius(), velocity, Vector(), 0});
+      added.push_back({position, radius, velocity, Vector(), 0});
     insert(added);
+  }
+
+  void
+  Dem::check_sizes(const std::vector<NewParticle> &added) const
+  {
+    const auto types = input.types();
+    for (std::size_t k = 0; k < added.size(); ++k)
+      if (const auto problem = problem_of_size(added[k], types); !problem.empty())
+        throw DemError("particle " + std::to_string(added[k].id < 0 ? k : added[k].id) +
+                       (added[k].id < 0 ? " of those to be inserted: " : ": ") + problem);
   }
 
   void
   Dem::insert(const std::vector<NewParticle> &added)
   {
+    check_sizes(added);
     // The ghosts make room; the contacts with them find them again by their ids.
     const auto         old_ids     = arrays.id;
     const unsigned int old_n_owned = arrays.n_owned;
@@ -109,9 +125,8 @@ namespace graupel
         materials.density[arrays.type[row]] * sphere_volume(arrays.body[row].radius);
     for (const auto &particle : added)
       {
-        const double volume = sphere_volume(particle.radius);
-        total_volume += volume;
-        total_mass += materials.density[particle.type] * volume;
+        volume_by_type[particle.type] += sphere_volume(particle.radius);
+        ++number_by_type[particle.type];
       }
     if (halo.is_needed())
       {
@@ -172,25 +187,35 @@ namespace graupel
             (z > mesh.cylinder().height && input.walls.top == "open"))
           departed.push_back(i);
       }
-    const auto n_gone =
-      mpi::sum(static_cast<unsigned int>(departed.size()), communicator());
-    n_departed_so_far += n_gone;
-    if (n_gone == 0)
-      return departed;
+    count_departed(departed);
+    return departed;
+  }
 
+  void
+  Dem::count_departed(const std::vector<std::uint32_t> &departed)
+  {
+    std::vector<unsigned long> n_gone(number_by_type.size(), 0);
     // What is left, in an order of sum that no number of ranks changes.
-    const double largest = sphere_volume(input.largest_radius());
-    const double densest =
-      *std::max_element(materials.density.begin(), materials.density.end());
-    ExactSum volume(largest), mass(densest * largest);
+    std::vector<ExactSum> gone(number_by_type.size(),
+                               ExactSum(sphere_volume(input.largest_radius())));
     for (const auto i : departed)
       {
-        volume.add(sphere_volume(arrays.body[i].radius));
-        mass.add(arrays.mass[i]);
+        ++n_gone[arrays.type[i]];
+        gone[arrays.type[i]].add(sphere_volume(arrays.body[i].radius));
       }
-    total_volume -= volume.total(communicator());
-    total_mass -= mass.total(communicator());
-    return departed;
+    mpi::sum(n_gone, communicator(), n_gone);
+    if (std::accumulate(n_gone.begin(), n_gone.end(), 0ul) == 0)
+      return;
+
+    const auto volume = ExactSum::totals(gone, communicator());
+    for (unsigned int type = 0; type < n_gone.size(); ++type)
+      {
+        departed_by_type[type] += n_gone[type];
+        number_by_type[type] -= n_gone[type];
+        departed_volume[type] += volume[type];
+        volume_by_type[type] =
+          number_by_type[type] > 0 ? volume_by_type[type] - volume[type] : 0.;
+      }
   }
 
   bool
@@ -249,8 +274,9 @@ namespace graupel
   }
 
   void
-  Dem::use_packing_materials(const bool packing)
+  Dem::use_packing_materials(const bool of_packing)
   {
+    packing   = of_packing;
     materials = input.materials(packing, walls);
   }
 
@@ -499,13 +525,42 @@ namespace graupel
       }
     over_diameter = mpi::sum(over_diameter, communicator());
     return over_diameter > 0. ? mpi::sum(solid, communicator()) / over_diameter
-                              : input.particles.diameter;
+                              : input.mean_original_diameter();
   }
 
   double
   Dem::solid_volume() const
   {
-    return total_volume;
+    return std::accumulate(volume_by_type.begin(), volume_by_type.end(), 0.);
+  }
+
+  double
+  Dem::solid_mass() const
+  {
+    return std::inner_product(
+      volume_by_type.begin(), volume_by_type.end(), materials.density.begin(), 0.);
+  }
+
+  double
+  Dem::mean_density() const
+  {
+    const double volume = solid_volume();
+    return volume > 0. ? solid_mass() / volume : materials.density[0];
+  }
+
+  std::vector<double>
+  Dem::departed_mass() const
+  {
+    auto mass = departed_volume;
+    for (unsigned int type = 0; type < mass.size(); ++type)
+      mass[type] *= materials.density[type];
+    return mass;
+  }
+
+  unsigned long
+  Dem::n_departed() const
+  {
+    return std::accumulate(departed_by_type.begin(), departed_by_type.end(), 0ul);
   }
 
   unsigned int
@@ -529,7 +584,7 @@ namespace graupel
   double
   Dem::weight() const
   {
-    return total_mass * input.particles.gravity;
+    return solid_mass() * input.particles.gravity;
   }
 
   double

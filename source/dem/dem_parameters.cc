@@ -116,7 +116,7 @@ namespace graupel
   }
 
   void
-  ParticleParameters::check(const Cylinder &cylinder) const
+  ParticleParameters::check() const
   {
     require(diameter > 0.,
             "Particles/diameter",
@@ -141,13 +141,6 @@ namespace graupel
     require(others < 1.,
             "Particles/Type 2/mass fraction",
             "nothing is left for the first type: the others must stay below 1 together");
-    require(
-      2. * scale * diameter < cylinder.diameter && scale * diameter < cylinder.height,
-      "Particles/diameter",
-      "the simulated diameter " + number(scale * diameter) +
-        " m does not go twice into the cylinder's diameter " + number(cylinder.diameter) +
-        " m and once into its height " + number(cylinder.height) +
-        " m: no bed fits. Lengths are in metres; is Particles/scale too large?");
   }
 
   void
@@ -320,7 +313,8 @@ namespace graupel
   void
   DemParameters::check(const Cylinder &cylinder) const
   {
-    particles.check(cylinder);
+    particles.check();
+    check_sizes(cylinder);
     contact.check();
     walls.check();
     check_pairs();
@@ -335,6 +329,38 @@ namespace graupel
               number(largest_time_fraction) + " of the characteristic time " +
               number(characteristic_time()) +
               " s; choose a shorter substep (zero for the default) or a softer material");
+  }
+
+  void
+  DemParameters::check_sizes(const Cylinder &cylinder) const
+  {
+    const double mean = mean_simulated_diameter();
+    require(2. * mean < cylinder.diameter && mean < cylinder.height,
+            "Particles/diameter",
+            "the simulated diameter " + number(mean) +
+              " m does not go twice into the cylinder's diameter " +
+              number(cylinder.diameter) + " m and once into its height " +
+              number(cylinder.height) +
+              " m: no bed fits. Lengths are in metres; is Particles/scale too large?");
+
+    std::vector<std::string> sections{"Particles"};
+    for (unsigned int t = 0; t < particles.further_types.size(); ++t)
+      if (particles.further_types[t].mass_fraction > 0.)
+        sections.push_back("Particles/Type " + std::to_string(t + 2));
+    const auto all = types();
+    for (std::size_t t = 0; t < all.size(); ++t)
+      {
+        const std::string &kind    = all[t].sizes.kind;
+        const double       largest = 2. * all[t].largest_radius();
+        require(largest < 0.95 * cylinder.diameter && largest < 0.95 * cylinder.height,
+                sections[t] + (kind == "single" ? "/diameter"
+                               : kind == "list" ? "/size list"
+                                                : "/largest diameter"),
+                "its largest simulated particle, of " + number(largest) +
+                  " m, does not fit into the cylinder, " + number(cylinder.diameter) +
+                  " m wide and " + number(cylinder.height) +
+                  " m high, with some room around it; lengths are in metres");
+      }
   }
 
   std::vector<ParticleType>
@@ -364,6 +390,42 @@ namespace graupel
     for (const auto &type : types())
       largest = std::max(largest, type.largest_radius());
     return largest;
+  }
+
+  namespace
+  {
+    // Six times volume over surface of all; @p diameter_of a type its own such mean. In
+    // ratios to the first, so that equal diameters give just that one.
+    template <class DiameterOf>
+    double
+    sauter_mean(const std::vector<ParticleType> &types, const DiameterOf &diameter_of)
+    {
+      const double first  = diameter_of(types.front());
+      double       volume = 0., surface = 0.;
+      for (const auto &type : types)
+        {
+          const double part = type.mass_fraction / type.density;
+          volume += part;
+          surface += part / (diameter_of(type) / first);
+        }
+      return first * (volume / surface);
+    }
+  } // namespace
+
+  double
+  DemParameters::mean_original_diameter() const
+  {
+    return sauter_mean(types(), [](const ParticleType &type) {
+      return type.sizes.sauter_diameter(type.diameter);
+    });
+  }
+
+  double
+  DemParameters::mean_simulated_diameter() const
+  {
+    return sauter_mean(types(), [](const ParticleType &type) {
+      return type.scale * type.sizes.sauter_diameter(type.diameter);
+    });
   }
 
   double
@@ -413,9 +475,8 @@ namespace graupel
   {
     if (contact.model == "linear-spring")
       return force / normal_stiffness();
-    return hertz_overlap(force,
-                         materials(false, {}).between(0, 0).young,
-                         0.5 * particles.simulated_radius());
+    return hertz_overlap(
+      force, materials(false, {}).between(0, 0).young, 0.25 * mean_simulated_diameter());
   }
 
   NormalLaws

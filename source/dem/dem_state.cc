@@ -26,6 +26,19 @@ namespace graupel
       const auto &point = wall.course.center(), &axis = wall.course.axis();
       return {{point.x, point.y, point.z, axis.x, axis.y, axis.z}};
     }
+
+    // A load that was counted in the quanta of a bed with other contacts.
+    void
+    recount(Load &load, const DemState &state, const ForceQuanta &here)
+    {
+      if (state.force_quantum == 0. ||
+          (state.force_quantum == here.force && state.torque_quantum == here.torque))
+        return;
+      for (unsigned int k = 0; k < 6; ++k)
+        load.quanta[k] = std::llround(static_cast<double>(load.quanta[k]) *
+                                      (k < 3 ? state.force_quantum / here.force
+                                             : state.torque_quantum / here.torque));
+    }
   } // namespace
 
   DemState
@@ -53,9 +66,15 @@ namespace graupel
                                 wall.pose.angle,
                                 axis_of(wall)});
       }
-    result.clock_runs = time.has_value();
-    result.clock      = clock();
-    result.n_departed = n_departed_so_far;
+    result.clock_runs        = time.has_value();
+    result.clock             = clock();
+    result.departed          = departed_by_type;
+    result.departed_volume   = departed_volume;
+    result.solid_volume      = volume_by_type;
+    result.next_id           = particle_store.next_number();
+    result.packing_materials = packing;
+    result.force_quantum     = contacts.quanta().force;
+    result.torque_quantum    = contacts.quanta().torque;
     return result;
   }
 
@@ -96,7 +115,11 @@ namespace graupel
     contacts.clear();
     list.clear();
     particle_store.clear();
-    total_mass = total_volume = 0.;
+    const unsigned int n_types = materials.n_types();
+    volume_by_type.assign(n_types, 0.);
+    number_by_type.assign(n_types, 0);
+    departed_by_type.assign(n_types, 0);
+    departed_volume.assign(n_types, 0.);
 
     std::vector<NewParticle> added;
     for (const auto &particle : state.particles)
@@ -129,6 +152,7 @@ namespace graupel
         const double mass = arrays.mass[row]; // of the present density
         unpack(of(arrays.id[row])->parcel, arrays, row);
         arrays.mass[row] = mass;
+        recount(arrays.load[row], state, contacts.quanta());
         own.push_back(arrays.id[row]);
       }
     halo.rebuild(arrays);
@@ -148,7 +172,27 @@ namespace graupel
         mine.push_back(contact);
       }
     contacts.add(arrays, std::move(mine));
-    n_departed_so_far = state.n_departed;
-    list_is_valid     = false;
+    restore_counts(state);
+    use_packing_materials(state.packing_materials);
+    list_is_valid = false;
+  }
+
+  void
+  Dem::restore_counts(const DemState &state)
+  {
+    // Of fewer types than here, what is not told is zero.
+    std::copy(state.departed.begin(),
+              state.departed.begin() +
+                std::min(state.departed.size(), departed_by_type.size()),
+              departed_by_type.begin());
+    std::copy(state.departed_volume.begin(),
+              state.departed_volume.begin() +
+                std::min(state.departed_volume.size(), departed_volume.size()),
+              departed_volume.begin());
+    std::copy(state.solid_volume.begin(),
+              state.solid_volume.begin() +
+                std::min(state.solid_volume.size(), volume_by_type.size()),
+              volume_by_type.begin());
+    particle_store.number_from(state.next_id);
   }
 } // namespace graupel

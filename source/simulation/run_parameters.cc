@@ -47,7 +47,7 @@ namespace graupel
     coupling.check();
     check_original_bed();
     read_probes(output.probes);
-    drag.check(dem.particles.scale, dem.particles.diameter);
+    drag.check(dem.particles.scale, dem.mean_original_diameter());
     flow.check();
     sweep.check();
     output.check();
@@ -107,7 +107,7 @@ namespace graupel
   double
   RunParameters::simulated_diameter() const
   {
-    return 2. * dem.particles.simulated_radius();
+    return dem.mean_simulated_diameter();
   }
 
   double
@@ -119,7 +119,7 @@ namespace graupel
   std::string
   RunParameters::describe() const
   {
-    const double       diameter = dem.particles.diameter;
+    const double       diameter = dem.mean_original_diameter();
     std::ostringstream text;
     text << std::setprecision(4);
     const auto line = [&](const std::string &name,

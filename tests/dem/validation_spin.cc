@@ -98,8 +98,11 @@ namespace
     const double      radius = R_1 * R_2 / (R_1 + R_2), mass = m_1 * m_2 / (m_1 + m_2);
     const HertzImpact hertz(
       p.materials(false, vessel_walls({})).particles[0].young, radius, mass, v_1 - v_2);
-    p.particles.diameter = 2. * std::max(R_1, R_2);
-    p.contact.substep    = hertz.duration / fineness;
+    p.particles.diameter       = 2. * std::max(R_1, R_2);
+    p.particles.sizes.kind     = "uniform";
+    p.particles.sizes.smallest = 2. * std::min(R_1, R_2);
+    p.particles.sizes.largest  = 2. * std::max(R_1, R_2);
+    p.contact.substep          = hertz.duration / fineness;
     ValidationVessel vessel(p, 8. * R_2, 8. * R_2);
     vessel.dem.insert({{Point<3>(-R_1, 0., 4. * R_2),
                         R_1,

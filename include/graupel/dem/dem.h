@@ -29,13 +29,14 @@ namespace graupel
 
     /**
      * Adds simulated particles. The same call on every rank, collective. Own rows
-     * stay, new ones come behind them.
+     * stay, new ones come behind them. Throws DemError for a size that its type does
+     * not have: substep, halo and lists are made for those of the types.
      */
     void insert(const std::vector<NewParticle> &added);
 
     /**
-     * Adds simulated particles of the first type at @p positions [m], moving with
-     * @p velocity [m/s].
+     * Adds simulated particles of the first type and its mean size at @p positions [m],
+     * moving with @p velocity [m/s].
      */
     void insert(const std::vector<dealii::Point<3>> &positions,
                 const dealii::Tensor<1, 3>          &velocity = dealii::Tensor<1, 3>());
@@ -84,7 +85,14 @@ namespace graupel
     void restore(const DemState &state);
 
     /** Uses the friction of packing (true) or that of the flow; springs stay. */
-    void use_packing_materials(const bool packing);
+    void use_packing_materials(const bool of_packing);
+
+    /** Whether the friction of packing is in force. */
+    bool
+    packing_materials() const
+    {
+      return packing;
+    }
 
     /** Sets the friction between particles and that with walls [-]; springs stay. */
     void set_friction(const double particles, const double walls);
@@ -191,12 +199,18 @@ namespace graupel
       return contacts.states(arrays, walls, materials, of_ghosts);
     }
 
-    /** Particles that have left through open ends, on all ranks. */
-    unsigned int
-    n_departed() const
+    /** Particles that have left through open ends, by type, on all ranks. */
+    const std::vector<unsigned long> &
+    departed() const
     {
-      return n_departed_so_far;
+      return departed_by_type;
     }
+
+    /** Mass of the particles that have left, by type [kg]. */
+    std::vector<double> departed_mass() const;
+
+    /** Particles that have left, of all types. */
+    unsigned long n_departed() const;
 
     /** The walls of the vessel, where they are now. */
     const std::vector<Wall> &
@@ -212,24 +226,23 @@ namespace graupel
       return longest_substep;
     }
 
+    /** Particles in the vessel by type, on all ranks. */
+    const std::vector<unsigned long> &
+    n_by_type() const
+    {
+      return number_by_type;
+    }
+
     /** Volume of all particles [m^3]. */
     double solid_volume() const;
     /** Sauter mean diameter of the original particles, volume over surface times six [m].
      * Collective. */
     double original_sauter_diameter() const;
     /** Mass of all particles [kg]. */
-    double
-    solid_mass() const
-    {
-      return total_mass;
-    }
+    double solid_mass() const;
 
     /** Mass over volume of all particles [kg/m^3]; of the first type without any. */
-    double
-    mean_density() const
-    {
-      return total_volume > 0. ? total_mass / total_volume : materials.density[0];
-    }
+    double mean_density() const;
 
     /** Weight of all particles under the gravity of the parameters [N]. */
     double weight() const;
@@ -303,6 +316,9 @@ namespace graupel
     void                       wrap();
     void                       remove_departed();
     std::vector<std::uint32_t> departed_rows();
+    void                       check_sizes(const std::vector<NewParticle> &added) const;
+    void                       count_departed(const std::vector<std::uint32_t> &departed);
+    void                       restore_counts(const DemState &state);
     void                       list_neighbors();
     ParticleStore::ContactsOf  contacts_of() const;
     unsigned int               cell_weight(const double cell_share) const;
@@ -340,8 +356,12 @@ namespace graupel
     Clock                 time;
     std::vector<WallLoad> wall_loads;
 
-    bool   external_forces = false;
-    double total_mass = 0., total_volume = 0.;
+    bool external_forces = false;
+    bool packing         = false;
+
+    // Of what is in the vessel and what has left it, by type [-, m^3].
+    std::vector<unsigned long> number_by_type, departed_by_type;
+    std::vector<double>        volume_by_type, departed_volume;
 
     // Bounds on how far any particle of any rank has gone since the list was
     // made, and since its pairs were sorted into near and far ones.
@@ -350,7 +370,6 @@ namespace graupel
     double       walls_moved_since_list = 0.;
     bool         list_is_valid          = false;
     unsigned int list_builds            = 0;
-    unsigned int n_departed_so_far      = 0;
   };
 } // namespace graupel
 

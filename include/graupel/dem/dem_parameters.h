@@ -32,7 +32,7 @@ namespace graupel
     /** Types 2 to 4. */
     std::array<ParticleType, 3> further_types;
 
-    /** Radius of a simulated particle [m]. */
+    /** Radius of a simulated particle of the first type, if that has one size [m]. */
     double
     simulated_radius() const
     {
@@ -44,7 +44,8 @@ namespace graupel
 
     /** Declares the section "Particles". */
     void declare(dealii::ParameterHandler &prm);
-    void check(const Cylinder &cylinder) const;
+    /** Throws InputError for values that cannot be. */
+    void check() const;
 
     /** Whether gravity, if there is any, points down along the axis of the vessel. */
     bool
@@ -137,6 +138,13 @@ namespace graupel
     std::vector<ParticleType> types() const;
     /** Radius of the largest simulated particle of any type [m]. */
     double largest_radius() const;
+    /**
+     * Sauter mean diameter of the simulated particles that are filled in, of all types
+     * by their sizes and mass fractions [m]; exactly the diameter if they have one.
+     */
+    double mean_simulated_diameter() const;
+    /** The same of the original particles, which the drag laws see [m]. */
+    double mean_original_diameter() const;
     /** Normal stiffness of the linear law for simulated particles [N/m]. */
     double normal_stiffness() const;
 
@@ -152,6 +160,7 @@ namespace graupel
     static constexpr double largest_time_fraction = 0.4;
 
   private:
+    void check_sizes(const Cylinder &cylinder) const;
     void check_pairs() const;
     // What "Contact/pairs" says of this pair, put into @p surface.
     void override_surface(const std::string &pair, Surface &surface) const;

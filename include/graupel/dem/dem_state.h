@@ -59,14 +59,27 @@ namespace graupel
     /** Whether the clock runs, and what it shows [s]. */
     bool   clock_runs = false;
     double clock      = 0.;
-    /** Particles that have left. */
-    unsigned int n_departed = 0;
+    /** Particles that have left, by type, and their volume [m^3]. */
+    std::vector<unsigned long> departed;
+    std::vector<double>        departed_volume;
+    /** Volume of the particles of each type, as it was summed up; empty: to be summed
+     * anew [m^3]. */
+    std::vector<double> solid_volume;
+    /** The number that the next particle gets; at least one above all that are here. */
+    std::int64_t next_id = 0;
+    /** Whether the friction of packing is in force. */
+    bool packing_materials = false;
+    /** Quanta in which the loads of the particles are counted; 0: of the reader's own
+     * [N, N m]. */
+    double force_quantum = 0., torque_quantum = 0.;
 
     template <class Archive>
     void
     serialize(Archive &archive, const unsigned int)
     {
-      archive &particles &contacts &walls &clock_runs &clock &n_departed;
+      archive &particles &contacts &walls &clock_runs &clock;
+      archive &departed &departed_volume &solid_volume &next_id &packing_materials;
+      archive &force_quantum &torque_quantum;
     }
   };
 } // namespace graupel

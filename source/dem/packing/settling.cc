@@ -80,15 +80,22 @@ namespace graupel
     : input(parameters)
     , dem(dem)
     , observables(dem.particles(), dem.cylinder(), dem.communicator())
-    , amplitude(first_amplitude)
   {
+    at.amplitude = first_amplitude;
     dem.use_packing_materials(true);
+  }
+
+  void
+  Settling::restore(const State &state)
+  {
+    at = state;
+    dem.use_packing_materials(at.phase == Phase::packing || at.phase == Phase::tapping);
   }
 
   const char *
   Settling::activity() const
   {
-    switch (phase)
+    switch (at.phase)
       {
         case Phase::packing:
           return "settling";
@@ -106,14 +113,25 @@ namespace graupel
   Settling::at_rest()
   {
     dem.advance(input.interval);
-    elapsed += input.interval;
+    at.elapsed += input.interval;
     return input.is_met_by(dem);
+  }
+
+  void
+  Settling::end()
+  {
+    if (at.phase == Phase::tapping)
+      dem.set_gravity(dem.parameters().particles.gravity);
+    dem.use_packing_materials(false);
+    at.phase = Phase::settled;
   }
 
   bool
   Settling::step()
   {
-    switch (phase)
+    if (dem.n_global() == 0)
+      end();
+    switch (at.phase)
       {
         case Phase::settled:
           return false;
@@ -126,39 +144,39 @@ namespace graupel
           break;
         case Phase::relaxing:
           if (at_rest())
-            phase = Phase::settled;
+            at.phase = Phase::settled;
           break;
       }
     finish_if_too_late();
-    return phase != Phase::settled;
+    return at.phase != Phase::settled;
   }
 
   void
   Settling::leave_packing()
   {
-    const double before = void_fraction;
-    void_fraction       = observables.bed().mean_void_fraction;
-    const double excess = void_fraction - input.target_void_fraction;
+    const double before = at.void_fraction;
+    at.void_fraction    = observables.bed().mean_void_fraction;
+    const double excess = at.void_fraction - input.target_void_fraction;
     if (input.target_void_fraction == 0. || excess <= 0.)
       {
         dem.use_packing_materials(false);
-        phase = Phase::relaxing;
+        at.phase = Phase::relaxing;
         return;
       }
 
     // Aim at a few more taps of the same size; the last ones must be gentle,
     // since what is too dense does not become looser again.
-    if (taps > 0)
+    if (at.taps > 0)
       {
-        const double gain = before - void_fraction;
+        const double gain = before - at.void_fraction;
         if (gain > 0.5 * excess)
-          amplitude = std::max(0.7 * amplitude, least_amplitude);
+          at.amplitude = std::max(0.7 * at.amplitude, least_amplitude);
         else if (gain < 0.2 * excess)
-          amplitude = std::min(1.2 * amplitude, most_amplitude);
+          at.amplitude = std::min(1.2 * at.amplitude, most_amplitude);
       }
-    phase    = Phase::tapping;
-    tap_time = 0.;
-    ++taps;
+    at.phase    = Phase::tapping;
+    at.tap_time = 0.;
+    ++at.taps;
   }
 
   void
@@ -166,28 +184,28 @@ namespace graupel
   {
     const auto   g = dem.parameters().gravity();
     const double phi =
-      2. * dealii::numbers::PI * tap_frequency * (tap_time + 0.5 * tap_piece);
-    dem.set_gravity((1. + amplitude * std::sin(phi)) * g);
+      2. * dealii::numbers::PI * tap_frequency * (at.tap_time + 0.5 * tap_piece);
+    dem.set_gravity((1. + at.amplitude * std::sin(phi)) * g);
     dem.advance(tap_piece);
-    elapsed += tap_piece;
-    tap_time += tap_piece;
-    if (tap_time >= tap_periods / tap_frequency)
+    at.elapsed += tap_piece;
+    at.tap_time += tap_piece;
+    if (at.tap_time >= tap_periods / tap_frequency)
       {
         dem.set_gravity(g);
-        phase = Phase::packing;
+        at.phase = Phase::packing;
       }
   }
 
   void
   Settling::finish_if_too_late() const
   {
-    if (elapsed < input.maximum_time || phase == Phase::settled)
+    if (at.elapsed < input.maximum_time || at.phase == Phase::settled)
       return;
     std::ostringstream text;
-    text << "the bed has not settled in " << elapsed << " s (Settling/maximum time): ";
-    if (taps > 0)
-      text << "after " << taps << " taps its mean void fraction is " << void_fraction
-           << ", the target " << input.target_void_fraction
+    text << "the bed has not settled in " << at.elapsed << " s (Settling/maximum time): ";
+    if (at.taps > 0)
+      text << "after " << at.taps << " taps its mean void fraction is "
+           << at.void_fraction << ", the target " << input.target_void_fraction
            << ". Allow more time, a higher target, or a lower packing friction.";
     else
       text << "mean kinetic energy " << dem.mean_translational_energy() << " J of "

@@ -44,8 +44,64 @@ namespace graupel
     }
   } // namespace
 
+  namespace
+  {
+    using Columns = std::vector<std::string>;
+
+    void
+    check_header(const Columns &columns, const std::string &file, const unsigned int line)
+    {
+      for (const auto &name : columns)
+        check(std::count(needed.begin(), needed.end(), name) +
+                  std::count(optional.begin(), optional.end(), name) ==
+                1,
+              file,
+              line,
+              "there is no column \"" + name +
+                "\"; there are x, y, z, diameter, vx, vy, vz, wx, wy, wz, type");
+      for (const auto &name : needed)
+        check(std::count(columns.begin(), columns.end(), name) == 1,
+              file,
+              line,
+              "the column \"" + name + "\" is missing or double in the header");
+    }
+
+    NewParticle
+    read_row(const Columns     &entries,
+             const Columns     &columns,
+             const unsigned int n_types,
+             const std::string &file,
+             const unsigned int line)
+    {
+      check(entries.size() == columns.size(),
+            file,
+            line,
+            std::to_string(entries.size()) + " values for " +
+              std::to_string(columns.size()) + " columns");
+      std::map<std::string, double> value{{"type", 1.}};
+      for (std::size_t k = 0; k < columns.size(); ++k)
+        value[columns[k]] = number(entries[k], file, line);
+      check(value["diameter"] > 0., file, line, "a diameter is positive, in metres");
+      check(value["type"] >= 1. && value["type"] <= n_types &&
+              value["type"] == std::floor(value["type"]),
+            file,
+            line,
+            "types go from 1 to " + std::to_string(n_types));
+
+      NewParticle particle;
+      particle.position = dealii::Point<3>(value["x"], value["y"], value["z"]);
+      particle.radius   = value["diameter"] / 2.;
+      particle.velocity = dealii::Tensor<1, 3>({value["vx"], value["vy"], value["vz"]});
+      particle.spin     = dealii::Tensor<1, 3>({value["wx"], value["wy"], value["wz"]});
+      particle.type     = static_cast<unsigned char>(value["type"] - 1.);
+      return particle;
+    }
+  } // namespace
+
   std::vector<NewParticle>
-  read_particle_list(const std::string &file, const unsigned int n_types)
+  read_particle_list(const std::string                                     &file,
+                     const unsigned int                                     n_types,
+                     const std::function<std::string(const NewParticle &)> &problem_of)
   {
     std::ifstream stream(file);
     require(static_cast<bool>(stream), "Filling/file", file + " cannot be opened");
@@ -62,43 +118,12 @@ namespace graupel
         if (columns.empty())
           {
             columns = entries;
-            for (const auto &name : columns)
-              check(std::count(needed.begin(), needed.end(), name) +
-                        std::count(optional.begin(), optional.end(), name) ==
-                      1,
-                    file,
-                    line,
-                    "there is no column \"" + name +
-                      "\"; there are x, y, z, diameter, vx, vy, vz, wx, wy, wz, type");
-            for (const auto &name : needed)
-              check(std::count(columns.begin(), columns.end(), name) == 1,
-                    file,
-                    line,
-                    "the column \"" + name + "\" is missing or double in the header");
+            check_header(columns, file, line);
             continue;
           }
-        check(entries.size() == columns.size(),
-              file,
-              line,
-              std::to_string(entries.size()) + " values for " +
-                std::to_string(columns.size()) + " columns");
-        std::map<std::string, double> value{{"type", 1.}};
-        for (std::size_t k = 0; k < columns.size(); ++k)
-          value[columns[k]] = number(entries[k], file, line);
-        check(value["diameter"] > 0., file, line, "a diameter is positive, in metres");
-        check(value["type"] >= 1. && value["type"] <= n_types &&
-                value["type"] == std::floor(value["type"]),
-              file,
-              line,
-              "types go from 1 to " + std::to_string(n_types));
-
-        NewParticle particle;
-        particle.position = dealii::Point<3>(value["x"], value["y"], value["z"]);
-        particle.radius   = value["diameter"] / 2.;
-        particle.velocity = dealii::Tensor<1, 3>({value["vx"], value["vy"], value["vz"]});
-        particle.spin     = dealii::Tensor<1, 3>({value["wx"], value["wy"], value["wz"]});
-        particle.type     = static_cast<unsigned char>(value["type"] - 1.);
-        particles.push_back(particle);
+        particles.push_back(read_row(entries, columns, n_types, file, line));
+        const auto problem = problem_of ? problem_of(particles.back()) : std::string();
+        check(problem.empty(), file, line, problem);
       }
     require(!particles.empty(), "Filling/file", file + " holds no particles");
     return particles;

@@ -1,11 +1,13 @@
 #include <graupel/base/parameters.h>
 #include <graupel/base/read_numbers.h>
-#include <graupel/dem/particles/particle_arrays.h>
 #include <graupel/dem/particles/particle_types.h>
 
 #include <deal.II/base/utilities.h>
 
 #include <boost/math/distributions/normal.hpp>
+
+#include <limits>
+#include <sstream>
 
 namespace graupel
 {
@@ -110,8 +112,13 @@ namespace graupel
     double             total = 0.;
     for (const auto &entry : dealii::Utilities::split_string_list(list))
       {
-        result.push_back(read_share(entry).value());
+        const auto share = read_share(entry);
+        if (!share)
+          return {};
+        result.push_back(*share);
         total += result.back().share;
+        if (result.back().share == 0.)
+          result.pop_back();
       }
     for (auto &share : result)
       share.share /= total;
@@ -176,20 +183,66 @@ namespace graupel
     return std::clamp(in_logarithm ? std::exp(at) : at, low, high);
   }
 
+  unsigned int
+  SizeDistribution::n_sizes(const double diameter) const
+  {
+    if (is_one_size(diameter))
+      return 1;
+    return kind == "list" ? shares().size() : 0;
+  }
+
+  std::vector<SizeDistribution::Share>
+  SizeDistribution::samples(const double diameter) const
+  {
+    if (is_one_size(diameter))
+      return {{smallest_diameter(diameter), 1.}};
+    if (kind == "list")
+      return shares();
+    std::vector<Share> result;
+    for (unsigned int k = 0; k < n_samples; ++k)
+      result.push_back({quantile((k + 0.5) / n_samples, diameter), 1. / n_samples});
+    return result;
+  }
+
   double
   SizeDistribution::mean_volume(const double diameter) const
   {
-    if (kind == "single")
-      return sphere_volume(diameter / 2.);
-    // A mean by number of V is, over a distribution by mass, one over that of 1/V.
-    double sum = 0.;
-    for (unsigned int k = 0; k < n_samples; ++k)
+    // A mean by number of V is, over a distribution by mass, one over that of 1/V. In
+    // ratios to the smallest one, so that one size gives its volume to the last digit.
+    const double least = smallest_diameter(diameter);
+    double       share = 0., sum = 0.;
+    for (const auto &sample : samples(diameter))
       {
-        const double volume =
-          sphere_volume(0.5 * quantile((k + 0.5) / n_samples, diameter));
-        sum += measure == "mass" ? 1. / volume : volume;
+        const double ratio =
+          measure == "mass" ? least / sample.diameter : sample.diameter / least;
+        share += sample.share;
+        sum += sample.share * ratio * ratio * ratio;
       }
-    return measure == "mass" ? n_samples / sum : sum / n_samples;
+    return sphere_volume(least / 2.) * (measure == "mass" ? share / sum : sum / share);
+  }
+
+  double
+  SizeDistribution::sauter_diameter(const double diameter) const
+  {
+    // Shares of the volume, or those by number times d^3.
+    const double least  = smallest_diameter(diameter);
+    double       volume = 0., surface = 0.;
+    for (const auto &sample : samples(diameter))
+      {
+        const double ratio = sample.diameter / least;
+        const double part =
+          sample.share * (measure == "mass" ? 1. : ratio * ratio * ratio);
+        volume += part;
+        surface += part / ratio;
+      }
+    return least * (volume / surface);
+  }
+
+  bool
+  ParticleType::has_size(const double radius) const
+  {
+    return radius >= (1. - size_tolerance) * smallest_radius() &&
+           radius <= (1. + size_tolerance) * largest_radius();
   }
 
   void
@@ -233,19 +286,74 @@ namespace graupel
     sizes.check(diameter, section);
   }
 
-  ParticleSource::ParticleSource(const std::vector<ParticleType> &types)
+  std::string
+  problem_of_size(const NewParticle &particle, const std::vector<ParticleType> &types)
+  {
+    const ParticleType &type = types[particle.type];
+    if (type.has_size(particle.radius))
+      return {};
+    std::ostringstream text;
+    text << "its diameter of " << 2. * particle.radius
+         << " m is none of its type's, number " << particle.type + 1
+         << ", whose simulated particles measure ";
+    if (type.largest_radius() > type.smallest_radius())
+      text << "from " << 2. * type.smallest_radius() << " to ";
+    text
+      << 2. * type.largest_radius()
+      << " m (Particles: diameter, scale, size distribution); the substep and the "
+         "search for neighbours follow from these. Set the type's diameter, or let its "
+         "size distribution (list, or uniform from smallest to largest) reach so far";
+    return text.str();
+  }
+
+  ParticleSource::ParticleSource(const std::vector<ParticleType> &types,
+                                 const unsigned int               only)
     : types(types)
   {
     double numbers = 0.;
-    for (const auto &type : types)
+    for (unsigned int t = 0; t < types.size(); ++t)
       {
-        number_fraction.push_back(type.mass_fraction / type.mean_mass());
+        const bool is_drawn = only == 0 || only == t + 1;
+        number_fraction.push_back(is_drawn ? (only > 0 ? 1. : types[t].mass_fraction) /
+                                               types[t].mean_mass()
+                                           : 0.);
         numbers += number_fraction.back();
       }
     for (unsigned int t = 0; t < types.size(); ++t)
       {
         number_fraction[t] /= numbers;
         mass += number_fraction[t] * types[t].mean_mass();
+        volume += number_fraction[t] * types[t].mean_volume();
       }
+  }
+
+  unsigned int
+  ParticleSource::n_sizes() const
+  {
+    unsigned int n       = 0;
+    double       largest = 0., smallest = 0.;
+    for (unsigned int t = 0; t < types.size(); ++t)
+      {
+        if (number_fraction[t] == 0.)
+          continue;
+        const unsigned int of_type = types[t].sizes.n_sizes(types[t].diameter);
+        if (of_type == 0)
+          return 0;
+        n += of_type;
+        largest  = std::max(largest, types[t].largest_radius());
+        smallest = smallest == 0. ? types[t].smallest_radius()
+                                  : std::min(smallest, types[t].smallest_radius());
+      }
+    return largest == smallest ? 1 : n;
+  }
+
+  double
+  ParticleSource::largest_radius() const
+  {
+    double largest = 0.;
+    for (unsigned int t = 0; t < types.size(); ++t)
+      if (number_fraction[t] > 0.)
+        largest = std::max(largest, types[t].largest_radius());
+    return largest;
   }
 } // namespace graupel

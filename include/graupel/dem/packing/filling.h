@@ -1,17 +1,14 @@
 #ifndef graupel_dem_packing_filling_h
 #define graupel_dem_packing_filling_h
 
-#include <graupel/dem/dem.h>
-#include <graupel/dem/packing/random_places.h>
-
-#include <random>
+#include <graupel/dem/packing/random_insertion.h>
 
 namespace graupel
 {
   /** How the bed is filled. */
   struct FillingParameters
   {
-    /** "rain", "packing", "volume" or "list". */
+    /** "rain", "packing", "volume", "list" or "none". */
     std::string method = "rain";
     /** Number of simulated particles [-]; 0: not by number. */
     unsigned int count = 0;
@@ -23,6 +20,8 @@ namespace graupel
     double drop_speed = 1.;
     /** Time between two layers of the rain [s]; 0: as soon as there is room. */
     double interval = 0.;
+    /** Number of the one type that is filled in; 0: all, by mass fractions [-]. */
+    unsigned int type = 0;
     /** Particles that rain in a second [1/s]; 0: as many as there is room for. */
     double rate = 0.;
     /** Section for the method volume [m]; an upper end of 0 is the top. */
@@ -36,23 +35,42 @@ namespace graupel
 
     /** Declares the section "Filling". */
     void declare(dealii::ParameterHandler &prm);
-    /** Throws InputError for values that cannot be, alone or together. */
+    /**
+     * Throws InputError for values that cannot be, alone or together; reads the file of
+     * the method list.
+     */
     void check(const Cylinder &cylinder, const DemParameters &particles) const;
 
+    /**
+     * The particles of the method list. Throws InputError, with the line, for what cannot
+     * be read, has no size of its type, or lies beyond one of the @p vessel's walls.
+     */
+    std::vector<NewParticle> read_list(const Cylinder          &cylinder,
+                                       const DemParameters     &particles,
+                                       const std::vector<Wall> &vessel) const;
+
   private:
+    void check_method(const Cylinder &cylinder, const DemParameters &particles) const;
     void check_amount(const Cylinder &cylinder, const DemParameters &particles) const;
+    void check_rate(const Cylinder       &cylinder,
+                    const DemParameters  &particles,
+                    const ParticleSource &source) const;
+    // Volume of what is to be filled in, before there is a bed [m^3].
+    double solid_volume(const Cylinder &cylinder, const ParticleSource &source) const;
   };
 
   /**
-   * The phase that fills the column, by one of four methods:
+   * The phase that fills the column, by one of these methods:
    * - rain: in intervals a layer of spheres appears below the top, each at random
-   *   where it overlaps nothing, and falls;
+   *   where it overlaps nothing, and falls; or so many a second, whatever the layers;
    * - packing: all the space above the bed is filled at once with a loose random
    *   packing that falls down on it, again and again, as fast as if it came from the
    *   top; the same bed in less time;
    * - volume: a loose random packing in a section, once;
-   * - list: from a file.
-   * The places are the same on any number of ranks.
+   * - list: from a file;
+   * - none: nothing is filled in.
+   * The places are the same on any number of ranks. What leaves meanwhile through an
+   * open end counts as filled in.
    *
    * Constructing it puts the materials of packing in force.
    */
@@ -62,10 +80,42 @@ namespace graupel
     /** @p dem must outlive this object. Reads the file of the method list. */
     Filling(const FillingParameters &parameters, Dem &dem);
 
+    /** All that filling goes on from, beside the particles. */
+    struct State
+    {
+      RandomInsertion::State insertion;
+      double                 elapsed = 0., next_drop = 0.; // [s]
+      unsigned int           barren_layers = 0;
+      bool                   finished      = false;
+      unsigned long          n_dropped     = 0;
+      // Of the watch over growth, when it began [s], and what was in and out then.
+      double        watch_begin  = 0.;
+      unsigned long watch_put_in = 0;
+      unsigned long watch_left   = 0;
+
+      template <class Archive>
+      void
+      serialize(Archive &archive, const unsigned int)
+      {
+        archive &insertion &elapsed &next_drop &barren_layers &finished &n_dropped
+          &watch_begin &watch_put_in &watch_left;
+      }
+    };
+
+    /** The same on every rank. */
+    State state() const;
+
+    /**
+     * Goes on from @p state, with the particles that belong to it in the Dem: the same
+     * bed, bit by bit, as without a stop.
+     */
+    void restore(const State &state);
+
     /**
      * Goes on by about a millisecond. Returns false, doing nothing, when all
-     * particles are in. Throws DemError if the column is full before that.
-     * Collective.
+     * particles are in. Throws DemError if the column is full before that, if there is
+     * no room below the top for the rate, and if a bed to be filled up to a height
+     * loses what it gains. Collective.
      */
     bool step();
 
@@ -73,7 +123,7 @@ namespace graupel
     double
     time() const
     {
-      return elapsed;
+      return at.elapsed;
     }
 
     /** How much of the particles is in [-], 0 to 1; an estimate if by height. */
@@ -86,33 +136,34 @@ namespace graupel
     double expected_height() const;
 
   private:
-    unsigned int n_missing();
+    // Particles that ever were put in, and their mass [kg].
+    unsigned long n_put_in() const;
+    double        mass_put_in() const;
+    unsigned int  n_missing() const;
+    void          fill_at_once();
+    // Particles that have fallen due at the rate and are not in.
+    unsigned int n_due() const;
+    void         rain_by_rate();
+    unsigned int drop_due(const unsigned int at_most);
     void         drop_layer(const unsigned int at_most);
     void         drop_batch(const unsigned int at_most);
     void         fill_volume();
+    void         move_on(const double duration);
+    void         watch_growth();
     // Speed at a height of what has rained from the top [m/s].
     double fallen_speed(const double z) const;
-    // Fills a section up to a solid fraction; how many found a place.
-    unsigned int fill_section(const double       lower,
-                              const double       upper,
-                              const unsigned int at_most,
-                              const unsigned int n_tries,
-                              const double       solid_fraction,
-                              const bool         fallen_from_top);
-    void         add_obstacles(RandomPlaces &places, const double above) const;
-    double       next_random();
+    // One that fills the section, with particles at the speed of the drop.
+    RandomInsertion::Request request(const Section     &section,
+                                     const unsigned int at_most,
+                                     const double       solid_fraction) const;
+    unsigned int             tries_below_top() const;
 
     const FillingParameters input;
     Dem                    &dem;
-    const ParticleSource    source;
-    const double            radius; // the largest
-    const double            layer_interval;
-    std::mt19937_64         generator;
-
-    double       elapsed       = 0.;
-    double       next_drop     = 0.;
-    unsigned int barren_layers = 0;
-    bool         finished      = false;
+    RandomInsertion         insertion;
+    const double            radius;       // the largest
+    const double            time_to_fall; // of a layer, until the next has room [s]
+    State                   at;
   };
 } // namespace graupel
 

@@ -38,13 +38,54 @@ namespace graupel
   class Settling
   {
   public:
+    /** All that settling goes on from, beside the particles. */
+    struct State
+    {
+      enum class Phase
+      {
+        packing,
+        tapping,
+        relaxing,
+        settled
+      };
+
+      Phase        phase   = Phase::packing;
+      double       elapsed = 0.; // [s]
+      unsigned int taps    = 0;
+      // Since the last tap began [s], its amplitude over gravity [-], and the mean void
+      // fraction before it [-].
+      double tap_time      = 0.;
+      double amplitude     = 0.;
+      double void_fraction = 1.;
+
+      template <class Archive>
+      void
+      serialize(Archive &archive, const unsigned int)
+      {
+        archive &phase &elapsed &taps &tap_time &amplitude &void_fraction;
+      }
+    };
+
     /** @p dem must outlive this object. Puts the materials of packing in force. */
     Settling(const SettlingParameters &parameters, Dem &dem);
 
+    /** The same on every rank. */
+    const State &
+    state() const
+    {
+      return at;
+    }
+
+    /**
+     * Goes on from @p state, with the particles that belong to it in the Dem and the
+     * materials of its phase: the same bed, bit by bit, as without a stop.
+     */
+    void restore(const State &state);
+
     /**
      * Goes on by about one interval. Returns false, doing nothing, when the
-     * bed has settled. Throws DemError if it has not after the maximum time.
-     * Collective.
+     * bed has settled, or if there are no particles. Throws DemError if it has not after
+     * the maximum time. Collective.
      */
     bool step();
 
@@ -52,30 +93,25 @@ namespace graupel
     double
     time() const
     {
-      return elapsed;
+      return at.elapsed;
     }
 
     /** Taps so far. */
     unsigned int
     n_taps() const
     {
-      return taps;
+      return at.taps;
     }
 
     /** What is going on, for a progress line: "settling", "tapping", ... */
     const char *activity() const;
 
   private:
-    enum class Phase
-    {
-      packing,
-      tapping,
-      relaxing,
-      settled
-    };
+    using Phase = State::Phase;
 
     bool at_rest();
     void leave_packing();
+    void end();
     void tap();
     void finish_if_too_late() const;
 
@@ -83,12 +119,7 @@ namespace graupel
     Dem                     &dem;
     const BedObservables     observables;
 
-    Phase        phase    = Phase::packing;
-    double       elapsed  = 0.;
-    unsigned int taps     = 0;
-    double       tap_time = 0.;
-    double       amplitude;
-    double       void_fraction = 1.;
+    State at;
   };
 } // namespace graupel
 

@@ -107,6 +107,21 @@ namespace graupel
       return n_expected;
     }
 
+    /** The id that the next particle without one gets. */
+    std::int64_t
+    next_number() const
+    {
+      return next_id;
+    }
+
+    /** Gives the next particles ids from @p number on, or from a higher one where lower
+     * ones are taken already. */
+    void
+    number_from(const std::int64_t number)
+    {
+      next_id = std::max(next_id, static_cast<unsigned int>(number));
+    }
+
     MPI_Comm
     communicator() const
     {

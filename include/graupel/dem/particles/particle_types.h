@@ -2,6 +2,7 @@
 #define graupel_dem_particles_particle_types_h
 
 #include <graupel/dem/laws/contact_laws.h>
+#include <graupel/dem/particles/particle_arrays.h>
 
 #include <deal.II/base/parameter_handler.h>
 
@@ -38,23 +39,39 @@ namespace graupel
      */
     double quantile(const double share, const double diameter) const;
 
+    /** Whether all particles have the same size. */
+    bool
+    is_one_size(const double diameter) const
+    {
+      return smallest_diameter(diameter) == largest_diameter(diameter);
+    }
+
+    /** Different sizes that there are; 0: of a continuous distribution. */
+    unsigned int n_sizes(const double diameter) const;
+
     /** Mean volume of a particle [m^3], mean by number. */
     double mean_volume(const double diameter) const;
+
+    /** Sauter mean diameter, six times volume over surface [m]. */
+    double sauter_diameter(const double diameter) const;
 
     /**
      * A diameter drawn by number [m]; @p random gives numbers even between 0 and 1.
      * From a distribution by mass, a diameter d is drawn by mass and taken with
-     * probability (smallest / d)^3.
+     * probability (smallest / d)^3. One size needs no random numbers, whichever way it
+     * is given.
      */
     template <class Random>
     double
     draw(const double diameter, Random &random) const
     {
       const double least = smallest_diameter(diameter);
+      if (is_one_size(diameter))
+        return least;
       for (;;)
         {
-          const double d = kind == "single" ? diameter : quantile(random(), diameter);
-          if (measure == "number" || kind == "single")
+          const double d = quantile(random(), diameter);
+          if (measure == "number")
             return d;
           const double ratio = least / d;
           if (random() < ratio * ratio * ratio)
@@ -70,9 +87,10 @@ namespace graupel
     };
     // "1e-3: 0.4"; nothing for any other text.
     static std::optional<Share> read_share(const std::string &entry);
-    // Of the list, which check() has found right: by ascending diameter, shares of 1
-    // together.
+    // Of the list, by ascending diameter, shares of 1 together; empty if it is no list.
     std::vector<Share> shares() const;
+    // Diameters that stand for equal parts of the measure, or the list's.
+    std::vector<Share> samples(const double diameter) const;
   };
 
   /** One kind of particles. */
@@ -103,6 +121,13 @@ namespace graupel
       return 0.5 * scale * sizes.smallest_diameter(diameter);
     }
 
+    /** Mean volume of a simulated particle, by number [m^3]. */
+    double
+    mean_volume() const
+    {
+      return scale * scale * scale * sizes.mean_volume(diameter);
+    }
+
     /** Mean mass of a simulated particle [kg]. */
     double
     mean_mass() const
@@ -110,10 +135,25 @@ namespace graupel
       return density * scale * scale * scale * sizes.mean_volume(diameter);
     }
 
+    /** Whether a simulated particle of @p radius [m] is one of this type's, up to the
+     * rounding of a text. */
+    bool has_size(const double radius) const;
+
+    /** How far a size may lie outside of those of its type, as written with few digits
+     * [-]. */
+    static constexpr double size_tolerance = 1e-4;
+
     /** Declares the entries of a subsection "Type n". */
     void declare(dealii::ParameterHandler &prm);
     void check(const std::string &section) const;
   };
+
+  /**
+   * What is wrong with the size of a particle that is to be inserted, for a message:
+   * its type does not have it. Empty if all is well.
+   */
+  std::string problem_of_size(const NewParticle               &particle,
+                              const std::vector<ParticleType> &types);
 
   /** Type and size of a particle that is to be inserted. */
   struct DrawnParticle
@@ -128,7 +168,9 @@ namespace graupel
   class ParticleSource
   {
   public:
-    explicit ParticleSource(const std::vector<ParticleType> &types);
+    /** @p only: number of the one type to draw, from 1; 0 for all. */
+    explicit ParticleSource(const std::vector<ParticleType> &types,
+                            const unsigned int               only = 0);
 
     /** @p random gives numbers even between 0 and 1. */
     template <class Random>
@@ -150,10 +192,23 @@ namespace graupel
       return mass;
     }
 
+    /** Mean volume of a drawn particle [m^3]. */
+    double
+    mean_volume() const
+    {
+      return volume;
+    }
+
+    /** Different sizes of what is drawn; 0: a continuous distribution is among them. */
+    unsigned int n_sizes() const;
+
+    /** Radius of the largest particle that can be drawn [m]. */
+    double largest_radius() const;
+
   private:
     std::vector<ParticleType> types;
     std::vector<double>       number_fraction;
-    double                    mass = 0.;
+    double                    mass = 0., volume = 0.;
   };
 } // namespace graupel
 
