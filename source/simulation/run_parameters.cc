@@ -23,6 +23,7 @@ namespace graupel
     dem.declare(prm);
     filling.declare(prm);
     settling.declare(prm);
+    feeds.declare(prm);
     fluid.declare(prm);
     drag.declare(prm);
     coupling.declare(prm);
@@ -43,6 +44,7 @@ namespace graupel
     adaption.check();
     filling.check(cylinder, dem);
     settling.check();
+    feeds.check(cylinder, dem);
     fluid.check();
     coupling.check();
     check_original_bed();

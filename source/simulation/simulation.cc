@@ -43,15 +43,13 @@ namespace graupel
                          MPI_Comm             communicator)
     : state(parameters, summary.costs, progress, communicator)
     , files(files)
+    , series{Feeds(parameters.feeds, state.dem), {}, 0., false}
     , probes(read_probes(parameters.output.probes))
     , next_output(parameters.output.interval)
     , started(Progress::steady_seconds())
   {
     summary.parameter_file = parameter_file;
     summary.fluid          = parameters.fluid;
-    for (const FeedParameters &feed : parameters.feeds)
-      if (feed.is_wanted())
-        series.feeds.emplace_back(feed, state.dem);
     if (!parameters.filling.start_from.empty())
       given_bed = read_bed(parameters.filling.start_from + "/bed.bin", parameters);
   }

@@ -2,6 +2,8 @@
 #include <graupel/simulation/simulation.h>
 #include <graupel/simulation/state/bytes.h>
 
+#include <boost/serialization/vector.hpp>
+
 #include <sstream>
 
 namespace graupel
@@ -51,8 +53,7 @@ namespace graupel
     saved.cases                = series.results;
     saved.last_velocity        = series.last_velocity;
     saved.has_begun            = series.has_begun;
-    for (const Feed &feed : series.feeds)
-      saved.feeds.push_back(to_bytes(feed.state()));
+    saved.feeds         = to_bytes(series.feeds.state());
     saved.ledger               = state.ledger;
     saved.costs                = summary.costs;
     saved.wall_seconds         = Progress::steady_seconds() - started;
@@ -114,8 +115,7 @@ namespace graupel
     series.results       = saved.cases;
     series.last_velocity = saved.last_velocity;
     series.has_begun     = saved.has_begun;
-    for (std::size_t n = 0; n < series.feeds.size() && n < saved.feeds.size(); ++n)
-      series.feeds[n].restore(from_bytes<Feed::State>(saved.feeds[n]));
+    series.feeds.restore(from_bytes<Feeds::State>(saved.feeds));
     state.ledger = saved.ledger;
     phase_number = saved.phase_number;
     if (mpi::this_mpi_process(state.communicator) == 0)

@@ -2,7 +2,7 @@
 #define graupel_simulation_run_parameters_h
 
 #include <graupel/coupling/exchange.h>
-#include <graupel/dem/packing/feed_parameters.h>
+#include <graupel/dem/packing/feed.h>
 #include <graupel/dem/packing/filling.h>
 #include <graupel/dem/packing/settling.h>
 #include <graupel/fluid/manufactured_solution.h>
@@ -22,7 +22,7 @@ namespace graupel
     DemParameters                 dem;
     FillingParameters             filling;
     SettlingParameters            settling;
-    std::array<FeedParameters, 3> feeds;
+    FeedsParameters        feeds;
     FluidProperties               fluid;
     DragParameters                drag;
     CouplingParameters            coupling;

@@ -90,9 +90,9 @@ namespace graupel
   Moment
   FlowCase::moment() const
   {
-    Value fed;
-    for (const Feed &feed : series.feeds)
-      fed = fed.value_or(0.) + feed.n_inserted();
+    double fed = 0.;
+    for (const unsigned long of_type : series.feeds.inserted())
+      fed += of_type;
     Value velocity;
     if (frame.velocity)
       velocity = state.parameters.sweep.mode == "transient"

@@ -26,8 +26,7 @@ namespace graupel
     void
     feed_particles(FlowFrame &frame, const double step)
     {
-      for (Feed &feed : frame.feeds)
-        feed.advance(frame.state.dem.clock(), step);
+      frame.feeds.advance(frame.state.dem.clock(), step);
     }
   } // namespace
 

@@ -20,7 +20,7 @@ namespace graupel
     std::vector<CaseResult>  cases;                 // those that have ended
     double                   last_velocity = 0.;    // V of the last of them [m/s]
     bool                     has_begun     = false; // the first flow case
-    std::vector<std::string> feeds;
+    std::string              feeds; // Feeds::State
     Ledger                   ledger;
     CostSheet                costs; // of all ranks
     double                   wall_seconds = 0., cpu_seconds = 0.;

@@ -15,7 +15,7 @@ namespace graupel
     /** What the cases of a run hand on to each other. */
     struct Series
     {
-      std::vector<Feed> feeds;
+      Feeds feeds;
       /** Those that have ended. */
       std::vector<CaseResult> results;
       /** V at the end of the last one [m/s]. */

@@ -11,7 +11,7 @@ namespace graupel
   {
     SimulationState &state;
     /** What brings in particles. */
-    std::vector<Feed> &feeds;
+    Feeds &feeds;
     /** V, which the velocity comes to [m/s]; nothing without a fluid. */
     Value velocity;
     /** Whether V has been reached, on a ramp from this one [m/s]. */
