@@ -24,7 +24,7 @@ namespace graupel
     const auto        velocities = state.parameters.sweep.cases();
     const std::string parameter  = "Flow/superficial velocities";
     const auto        expect     = [&](const std::size_t n, const Value &there) {
-      const bool is_same = n < velocities.size() && velocities[n] == there;
+      const bool         is_same = n < velocities.size() && velocities[n] == there;
       std::ostringstream text;
       text << "case " << n + 1 << " of the checkpoint "
            << (n < saved.cases.size() ? "has ended" : "is under way") << " with ";
@@ -45,23 +45,24 @@ namespace graupel
   Simulation::run_state() const
   {
     RunState saved;
-    saved.parameters           = state.parameters.texts;
-    saved.time                 = state.time;
-    saved.next_output          = next_output;
-    saved.next_adaption        = state.next_adaption;
-    saved.rest                 = state.rest;
-    saved.cases                = series.results;
-    saved.last_velocity        = series.last_velocity;
-    saved.has_begun            = series.has_begun;
+    saved.parameters    = state.parameters.texts;
+    saved.time          = state.time;
+    saved.next_output   = next_output;
+    saved.next_adaption = state.next_adaption;
+    saved.rest          = state.rest;
+    saved.cases         = series.results;
+    saved.last_velocity = series.last_velocity;
+    saved.has_begun     = series.has_begun;
     saved.feeds         = to_bytes(series.feeds.state());
-    saved.ledger               = state.ledger;
-    saved.costs                = summary.costs;
-    saved.wall_seconds         = Progress::steady_seconds() - started;
-    saved.cpu_seconds          = mpi::sum(state.cpu_seconds(), state.communicator);
-    saved.costs.particle_steps = mpi::sum(summary.costs.particle_steps, state.communicator);
-    saved.costs.contact_steps  = mpi::sum(summary.costs.contact_steps, state.communicator);
-    saved.written              = files.written();
-    saved.has_fluid            = state.fluid.has_value();
+    saved.ledger        = state.ledger;
+    saved.costs         = summary.costs;
+    saved.wall_seconds  = Progress::steady_seconds() - started;
+    saved.cpu_seconds   = mpi::sum(state.cpu_seconds(), state.communicator);
+    saved.costs.particle_steps =
+      mpi::sum(summary.costs.particle_steps, state.communicator);
+    saved.costs.contact_steps = mpi::sum(summary.costs.contact_steps, state.communicator);
+    saved.written             = files.written();
+    saved.has_fluid           = state.fluid.has_value();
     if (state.fluid)
       saved.fluid = state.fluid->history();
     saved.phase_number = phase_number;

@@ -16,22 +16,22 @@ namespace graupel
   /** Everything that a parameter file says: read once, const ever after. */
   struct RunParameters
   {
-    Cylinder                      cylinder;
-    MeshParameters                mesh;
-    AdaptionParameters            adaption;
-    DemParameters                 dem;
-    FillingParameters             filling;
-    SettlingParameters            settling;
+    Cylinder               cylinder;
+    MeshParameters         mesh;
+    AdaptionParameters     adaption;
+    DemParameters          dem;
+    FillingParameters      filling;
+    SettlingParameters     settling;
     FeedsParameters        feeds;
-    FluidProperties               fluid;
-    DragParameters                drag;
-    CouplingParameters            coupling;
-    OriginalBedParameters         original_bed;
-    FlowParameters                flow;
-    SweepParameters               sweep;
-    OutputParameters              output;
-    StudyParameters               study;
-    ManufacturedParameters        manufactured;
+    FluidProperties        fluid;
+    DragParameters         drag;
+    CouplingParameters     coupling;
+    OriginalBedParameters  original_bed;
+    FlowParameters         flow;
+    SweepParameters        sweep;
+    OutputParameters       output;
+    StudyParameters        study;
+    ManufacturedParameters manufactured;
 
     /** Every parameter by its path, as the file or its default has it. */
     std::map<std::string, std::string> texts;

@@ -13,18 +13,18 @@ namespace graupel
     /** Every parameter by its path, as text. */
     std::map<std::string, std::string> parameters;
 
-    double                   time          = 0.; // simulated [s]
-    double                   next_output   = 0.; // [s]
-    double                   next_adaption = 0.; // [s]
-    BedResult                rest;
-    std::vector<CaseResult>  cases;                 // those that have ended
-    double                   last_velocity = 0.;    // V of the last of them [m/s]
-    bool                     has_begun     = false; // the first flow case
-    std::string              feeds; // Feeds::State
-    Ledger                   ledger;
-    CostSheet                costs; // of all ranks
-    double                   wall_seconds = 0., cpu_seconds = 0.;
-    ResultFiles::Written     written;
+    double                  time          = 0.; // simulated [s]
+    double                  next_output   = 0.; // [s]
+    double                  next_adaption = 0.; // [s]
+    BedResult               rest;
+    std::vector<CaseResult> cases;                 // those that have ended
+    double                  last_velocity = 0.;    // V of the last of them [m/s]
+    bool                    has_begun     = false; // the first flow case
+    std::string             feeds;                 // Feeds::State
+    Ledger                  ledger;
+    CostSheet               costs; // of all ranks
+    double                  wall_seconds = 0., cpu_seconds = 0.;
+    ResultFiles::Written    written;
 
     /** The phase that comes or goes on, and where it is; empty if it has not begun. */
     std::size_t phase_number = 0;
