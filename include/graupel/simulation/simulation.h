@@ -60,9 +60,9 @@ namespace graupel
     void     save_if_due();
     void     go_on_from(const RunState &saved);
 
+    Summary          summary;
     SimulationState  state;
     ResultFiles     &files;
-    Summary          summary;
     FlowCase::Series series;
     Probes           probes;
 
