@@ -1,57 +1,20 @@
 #include <graupel/base/convergence.h>
 #include <graupel/simulation/study.h>
+#include <graupel/simulation/study_levels.h>
 
 #include <deal.II/base/table_handler.h>
 
-#include <filesystem>
+#include <algorithm>
+#include <chrono>
 #include <fstream>
 #include <iomanip>
 #include <sstream>
+#include <thread>
 
 namespace graupel
 {
   namespace
   {
-    std::string
-    text_of(const double value)
-    {
-      std::ostringstream text;
-      text << std::setprecision(17) << value;
-      return text.str();
-    }
-
-    // The same mass of particles of another scale; the filter follows them.
-    void
-    set_scale(RunParameters &parameters, const double scale)
-    {
-      const double growth = scale / parameters.dem.particles.scale;
-      auto        &count  = parameters.filling.count;
-      count = static_cast<unsigned int>(std::lround(count / std::pow(growth, 3)));
-      if (parameters.coupling.filter_length != "auto")
-        parameters.coupling.filter_length =
-          text_of(parameters.filter_length() * growth);
-      for (ParticleType &type : parameters.dem.particles.further_types)
-        type.scale *= growth;
-      parameters.dem.particles.scale = scale;
-    }
-
-    RunParameters
-    at_level(RunParameters parameters, const double value)
-    {
-      if (parameters.study.vary == "cell size")
-        {
-          parameters.mesh.cell_height *= value / parameters.mesh.cell_size;
-          parameters.mesh.cell_size = value;
-        }
-      else if (parameters.study.vary == "time step")
-        parameters.sweep.time_step = value;
-      else if (parameters.study.vary == "scale")
-        set_scale(parameters, value);
-      else if (parameters.study.vary == "filter length")
-        parameters.coupling.filter_length = text_of(value);
-      return parameters;
-    }
-
     double
     size_of(const LevelResult &level, const std::string &vary)
     {
@@ -77,15 +40,23 @@ namespace graupel
       std::ofstream file(file_name);
       file << "level,cells,cell_size,time_step,quantity,value,error_or_change,"
               "observed_order,filter_length,extrapolated,grid_convergence_index,scale,"
-              "standard_error\n";
+              "standard_error,status\n";
       for (const StudyRow &row : rows)
-        file << row.level << ',' << row.result.cells << ','
-             << number(row.result.cell_size) << ',' << number(row.result.time_step) << ','
-             << row.measurement.quantity << ',' << number(row.measurement.value) << ','
-             << number(row.error_or_change) << ',' << number(row.observed_order) << ','
-             << number(row.result.filter_length) << ',' << number(row.extrapolated) << ','
-             << number(row.index) << ',' << row.result.scale << ','
-             << row.measurement.standard_error << '\n';
+        {
+          const bool computed = !row.result.has_failed;
+          const auto of_level = [computed](const double value) {
+            return computed ? number(value) : "";
+          };
+          file << row.level << ',' << of_level(row.result.cells) << ','
+               << of_level(row.result.cell_size) << ',' << number(row.result.time_step)
+               << ',' << row.measurement.quantity << ',' << number(row.measurement.value)
+               << ',' << number(row.error_or_change) << ',' << number(row.observed_order)
+               << ',' << number(row.result.filter_length) << ','
+               << number(row.extrapolated) << ',' << number(row.index) << ','
+               << number(row.result.scale) << ','
+               << of_level(row.measurement.standard_error) << ','
+               << (computed ? "finished" : "failed") << '\n';
+        }
       if (!file)
         throw std::runtime_error("The file " + file_name + " cannot be written.");
     }
@@ -104,13 +75,14 @@ namespace graupel
       dealii::TableHandler table;
       for (const StudyRow &row : rows)
         {
+          const bool failed = row.result.has_failed;
           table.add_value("quantity", row.measurement.quantity);
           table.add_value("level", row.level);
-          table.add_value("cells", row.result.cells);
-          table.add_value("cell size", shown(row.result.cell_size));
+          table.add_value("cells", failed ? "-" : std::to_string(row.result.cells));
+          table.add_value("cell size", failed ? "-" : shown(row.result.cell_size));
           table.add_value("time step", shown(row.result.time_step));
           table.add_value("scale", shown(row.result.scale));
-          table.add_value("value", shown(row.measurement.value));
+          table.add_value("value", failed ? "failed" : shown(row.measurement.value));
           table.add_value("change", shown(row.error_or_change));
           table.add_value("order",
                           row.oscillates ? "oscillates" : shown(row.observed_order));
@@ -121,42 +93,96 @@ namespace graupel
       table.write_text(text);
       return text.str();
     }
+
+    // What is measured: by the first level that has succeeded.
+    std::vector<Measurement>
+    quantities_of(const std::vector<LevelResult> &levels)
+    {
+      for (const LevelResult &level : levels)
+        if (!level.measurements.empty())
+          {
+            auto quantities = level.measurements;
+            for (Measurement &quantity : quantities)
+              {
+                quantity.value          = {};
+                quantity.standard_error = 0.;
+              }
+            return quantities;
+          }
+      return {{"", {}}}; // a row a level tells that it has failed
+    }
+
+    // The level's row of that quantity, without a value if it has none.
+    StudyRow
+    row_of(const Measurement              &quantity,
+           const std::vector<LevelResult> &levels,
+           const unsigned int              level)
+    {
+      StudyRow row{level + 1, levels[level], quantity, {}, {}, {}, false};
+      for (const Measurement &measured : levels[level].measurements)
+        if (measured.quantity == quantity.quantity)
+          row.measurement = measured;
+      return row;
+    }
+
+    std::optional<double>
+    relative_change(const double from, const double to)
+    {
+      if (to == 0.)
+        return {};
+      return (to - from) / std::abs(to);
+    }
+
+    // What the last of some neighbouring computations tells with those before it.
+    void
+    add_convergence(StudyRow &row, const std::vector<Computation> &computed)
+    {
+      const unsigned int n        = computed.size();
+      const auto         from_end = [&](const unsigned int back) {
+        return computed[n - 1 - back];
+      };
+      if (row.measurement.is_error)
+        {
+          row.error_or_change = row.measurement.value;
+          if (n >= 2)
+            row.observed_order = observed_order(from_end(0), from_end(1));
+          return;
+        }
+      if (n >= 2)
+        row.error_or_change = relative_change(from_end(1).value, from_end(0).value);
+      if (n >= 3 && from_end(0).size < from_end(1).size &&
+          from_end(1).size < from_end(2).size)
+        {
+          const auto convergence =
+            grid_convergence(from_end(0), from_end(1), from_end(2));
+          row.observed_order = convergence.order;
+          row.extrapolated   = convergence.extrapolated;
+          row.index          = convergence.index;
+          row.oscillates     = convergence.oscillates;
+        }
+    }
   } // namespace
 
   std::vector<StudyRow>
   evaluate_study(const std::vector<LevelResult> &levels, const std::vector<double> &sizes)
   {
     std::vector<StudyRow> rows;
-    if (levels.empty())
-      return rows;
-    for (unsigned int m = 0; m < levels[0].measurements.size(); ++m)
-      for (unsigned int level = 0; level < levels.size(); ++level)
-        {
-          const auto value = [&](const unsigned int back) -> Computation {
-            return {sizes[level - back], levels[level - back].measurements[m].value};
-          };
-          StudyRow row{
-            level + 1, levels[level], levels[level].measurements[m], {}, {}, {}, {}};
-          if (row.measurement.is_error)
-            {
-              row.error_or_change = row.measurement.value;
-              if (level >= 1)
-                row.observed_order = observed_order(value(0), value(1));
-            }
-          else if (level >= 1 && value(0).value != 0.)
-            row.error_or_change =
-              (value(0).value - value(1).value) / std::abs(value(0).value);
-          if (!row.measurement.is_error && level >= 2 &&
-              sizes[level] < sizes[level - 1] && sizes[level - 1] < sizes[level - 2])
-            {
-              const auto convergence = grid_convergence(value(0), value(1), value(2));
-              row.observed_order     = convergence.order;
-              row.extrapolated       = convergence.extrapolated;
-              row.index              = convergence.index;
-              row.oscillates         = convergence.oscillates;
-            }
-          rows.push_back(row);
-        }
+    for (const Measurement &quantity : quantities_of(levels))
+      {
+        std::vector<Computation> computed; // neighbours, up to this level
+        for (unsigned int level = 0; level < levels.size(); ++level)
+          {
+            StudyRow row = row_of(quantity, levels, level);
+            if (row.measurement.value)
+              {
+                computed.push_back({sizes[level], *row.measurement.value});
+                add_convergence(row, computed);
+              }
+            else
+              computed.clear();
+            rows.push_back(row);
+          }
+      }
     return rows;
   }
 
@@ -164,26 +190,31 @@ namespace graupel
   evaluate_ladder(const std::vector<LevelResult> &levels)
   {
     std::vector<StudyRow> rows;
-    if (levels.empty())
-      return rows;
-    for (unsigned int m = 0; m < levels[0].measurements.size(); ++m)
+    for (const Measurement &quantity : quantities_of(levels))
       {
-        std::vector<Computation> computations;
+        std::vector<Computation> computed; // neighbours, up to this level
         std::vector<double>      errors;
         for (unsigned int level = 0; level < levels.size(); ++level)
           {
-            const Measurement &measured = levels[level].measurements[m];
-            StudyRow           row{level + 1, levels[level], measured, {}, {}, {}, {}};
-            if (level >= 1)
-              row.error_or_change =
-                (measured.value - computations.back().value) / std::abs(measured.value);
-            computations.push_back({levels[level].scale, measured.value});
-            errors.push_back(measured.standard_error);
-            if (level >= 2)
+            StudyRow row = row_of(quantity, levels, level);
+            if (!row.measurement.value)
               {
-                const Estimate at_one = extrapolate(computations, errors, 1.);
+                computed.clear();
+                errors.clear();
+                rows.push_back(row);
+                continue;
+              }
+            if (!computed.empty())
+              row.error_or_change =
+                relative_change(computed.back().value, *row.measurement.value);
+            computed.push_back({levels[level].scale, *row.measurement.value});
+            errors.push_back(row.measurement.standard_error);
+            if (computed.size() >= 3)
+              {
+                const Estimate at_one = extrapolate(computed, errors, 1.);
                 row.extrapolated      = at_one.value;
-                row.index             = at_one.error / std::abs(at_one.value);
+                if (at_one.value != 0.)
+                  row.index = at_one.error / std::abs(at_one.value);
               }
             rows.push_back(row);
           }
@@ -198,66 +229,136 @@ namespace graupel
     LevelResult  result = repetitions.at(0);
     for (unsigned int m = 0; m < result.measurements.size(); ++m)
       {
+        const bool all_known =
+          std::all_of(repetitions.begin(), repetitions.end(), [m](const auto &one) {
+            return one.measurements[m].value.has_value();
+          });
+        result.measurements[m].value          = {};
+        result.measurements[m].standard_error = 0.;
+        if (!all_known)
+          continue;
         double sum = 0., squares = 0.;
         for (const LevelResult &one : repetitions)
-          sum += one.measurements[m].value;
+          sum += *one.measurements[m].value;
         for (const LevelResult &one : repetitions)
-          squares += std::pow(one.measurements[m].value - sum / n, 2);
+          squares += std::pow(*one.measurements[m].value - sum / n, 2);
         result.measurements[m].value = sum / n;
-        result.measurements[m].standard_error =
-          n > 1. ? std::sqrt(squares / (n - 1.) / n) : 0.;
+        if (n > 1.)
+          result.measurements[m].standard_error = std::sqrt(squares / (n - 1.) / n);
       }
     return result;
   }
 
-  void
+  namespace
+  {
+    // Whether every rank comes here within seconds, as after a failure that all see at
+    // once. Otherwise the others wait for this rank in the middle of the level. Of a
+    // communicator that nothing else uses.
+    bool
+    all_ranks_are_here(MPI_Comm communicator)
+    {
+      using namespace std::chrono;
+      MPI_Request request;
+      MPI_Ibarrier(communicator, &request);
+      const auto patience = steady_clock::now() + seconds(10);
+      int        done     = 0;
+      while (!done && steady_clock::now() < patience)
+        {
+          MPI_Test(&request, &done, MPI_STATUS_IGNORE);
+          std::this_thread::sleep_for(milliseconds(1));
+        }
+      return done;
+    }
+
+    // The level's own directory; each of its beds has one.
+    std::string
+    directory_of(const std::string &directory,
+                 const unsigned int level,
+                 const unsigned int bed)
+    {
+      return directory + "/level-" + std::to_string(level + 1) +
+             (bed > 0 ? "-" + std::to_string(bed + 1) : "");
+    }
+
+    // The mean over the beds of a level.
+    LevelResult
+    run_beds(RunParameters      parameters,
+             const RunLevel    &run_level,
+             const std::string &directory,
+             const unsigned int level)
+    {
+      std::vector<LevelResult> beds;
+      for (unsigned int bed = 0; bed < parameters.study.repetitions; ++bed)
+        {
+          beds.push_back(run_level(parameters, directory_of(directory, level, bed)));
+          ++parameters.filling.seed;
+        }
+      return mean_of(beds);
+    }
+
+    LevelResult
+    failed_level(const RunParameters &parameters)
+    {
+      LevelResult result;
+      result.time_step     = parameters.sweep.time_step;
+      result.filter_length = parameters.filter_length();
+      result.scale         = parameters.dem.particles.scale;
+      result.has_failed    = true;
+      return result;
+    }
+
+    std::string
+    title_of(const StudyParameters &study,
+             const unsigned int     level,
+             const unsigned int     n_levels)
+    {
+      std::ostringstream title;
+      title << "study, level " << level + 1 << " of " << n_levels;
+      if (study.is_wanted())
+        title << ": " << study.vary << ' ' << study.values[level];
+      return title.str();
+    }
+  } // namespace
+
+  bool
   run_study(const RunParameters &parameters,
             const RunLevel      &run_level,
             const std::string   &directory,
             Progress            &progress,
             MPI_Comm             communicator)
   {
-    const StudyParameters   &study = parameters.study;
+    // Left alone by a throw: to free it would wait for the ranks that do not come.
+    MPI_Comm of_failures = dealii::Utilities::MPI::duplicate_communicator(communicator);
+    const StudyParameters   &study    = parameters.study;
+    const auto               planned  = study_levels(parameters);
+    bool                     all_well = true;
     std::vector<LevelResult> levels;
     std::vector<double>      sizes;
-    const unsigned int       n = study.is_wanted() ? study.values.size() : 1;
-    for (unsigned int level = 0; level < n; ++level)
+    for (unsigned int level = 0; level < planned.size(); ++level)
       {
-        std::ostringstream title;
-        title << "study, level " << level + 1 << " of " << n;
-        if (study.is_wanted())
-          title << ": " << study.vary << ' ' << study.values[level];
-        progress.say(title.str());
+        const std::string title = title_of(study, level, planned.size());
+        progress.say(title);
         try
           {
-            std::vector<LevelResult> beds;
-            for (unsigned int bed = 0; bed < study.repetitions; ++bed)
-              {
-                RunParameters own = study.is_wanted()
-                                      ? at_level(parameters, study.values[level])
-                                      : parameters;
-                own.filling.seed += bed;
-                beds.push_back(
-                  run_level(own,
-                            directory + "/level-" + std::to_string(level + 1) +
-                              (bed > 0 ? "-" + std::to_string(bed + 1) : "")));
-              }
-            levels.push_back(mean_of(beds));
-            sizes.push_back(size_of(levels.back(), study.vary));
+            levels.push_back(run_beds(planned[level], run_level, directory, level));
           }
         catch (const std::exception &error)
           {
-            // On several ranks the others may be elsewhere: no way to go on.
-            if (dealii::Utilities::MPI::n_mpi_processes(communicator) > 1)
+            if (!all_ranks_are_here(of_failures))
               throw;
-            progress.say("study, level " + std::to_string(level + 1) +
-                         " has failed and is left out: " + error.what());
+            all_well = false;
+            levels.push_back(failed_level(planned[level]));
+            progress.say(title + " has failed: " + error.what() +
+                         " No order, change or extrapolation is computed across it.");
           }
+        sizes.push_back(size_of(levels.back(), study.vary));
       }
+    dealii::Utilities::MPI::free_communicator(of_failures);
     const auto rows =
       study.vary == "scale" ? evaluate_ladder(levels) : evaluate_study(levels, sizes);
     if (dealii::Utilities::MPI::this_mpi_process(communicator) == 0)
       write_rows(directory + "/study.csv", rows);
     progress.say(table_of(rows));
+    return all_well;
   }
 } // namespace graupel

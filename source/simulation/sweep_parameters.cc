@@ -1,6 +1,8 @@
 #include <graupel/base/parameters.h>
 #include <graupel/simulation/sweep_parameters.h>
 
+#include <sstream>
+
 namespace graupel
 {
   std::vector<std::optional<double>>
@@ -24,6 +26,23 @@ namespace graupel
     return duration > 0.           ? duration
            : stop_when == "steady" ? maximum_time
                                    : flow_throughs * height / superficial_velocity;
+  }
+
+  void
+  SweepParameters::check_ramp(const double height) const
+  {
+    if (mode == "steady")
+      return;
+    for (const double velocity : superficial_velocities)
+      {
+        std::ostringstream reason;
+        reason << "the case of " << velocity << " m/s ends after "
+               << case_duration(velocity, height)
+               << " s, while its velocity still ramps up; choose a shorter ramp (0 is a "
+                  "jump), or longer cases by Flow/flow-throughs or Flow/maximum time";
+        require(
+          case_duration(velocity, height) > ramp_time, "Flow/ramp time", reason.str());
+      }
   }
 
   void

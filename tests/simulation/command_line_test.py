@@ -2,30 +2,13 @@
 run alone and on two ranks. Called with the path of the binary."""
 
 import json
-import os
 import pathlib
-import subprocess
-import sys
 import tempfile
 import unittest
 
-BINARY = None
-ROOT = pathlib.Path(__file__).resolve().parents[2]
+from runs import ROOT, call, main
+
 SHORT = ROOT / "prm" / "packed-bed" / "short.prm"
-
-
-def call(*arguments, ranks=1):
-    """The finished process of graupel with these arguments."""
-    environment = dict(
-        os.environ,
-        OMPI_ALLOW_RUN_AS_ROOT="1",
-        OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1",
-        OMP_NUM_THREADS="1",
-    )
-    command = [BINARY, *map(str, arguments)]
-    if ranks > 1:
-        command = ["mpirun", "--oversubscribe", "-np", str(ranks)] + command
-    return subprocess.run(command, env=environment, capture_output=True, text=True, timeout=600)
 
 
 class Options(unittest.TestCase):
@@ -340,5 +323,4 @@ class Checkpoints(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    BINARY = sys.argv.pop(1)
-    unittest.main()
+    main()

@@ -6,6 +6,8 @@ import os
 import pathlib
 import subprocess
 import sys
+import tempfile
+import unittest
 
 # For the reader of ParaView's files and for the project's own tables.
 ROOT = pathlib.Path(__file__).resolve().parents[2]
@@ -92,3 +94,45 @@ class Run:
         rows = self.rows(name)
         solid = [1.0 - row["void_fraction"] for row in rows]
         return sum(s * row["z"] for s, row in zip(solid, rows)) / sum(solid)
+
+
+class RunTest(unittest.TestCase):
+    """Each test runs the program in a folder of its own."""
+
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.path = pathlib.Path(folder.name)
+        self.runs = 0
+
+    def run_file(self, file, values=None, *more, output=None, ranks=1, timeout=300):
+        """The run of a parameter file with the overridden @p values; in a directory of its
+        own unless one is named."""
+        self.runs += 1
+        output = output or f"o{self.runs}"
+        process = call(
+            file, *overrides(values or {}), "--output", output, *more,
+            ranks=ranks, cwd=self.path, timeout=timeout,
+        )  # fmt: skip
+        return Run(process, self.path / output)
+
+    def assert_close(self, value, right, relative, message=None):
+        """Both are numbers that differ by at most the relative tolerance."""
+        self.assert_within(value, right, relative * abs(right), message)
+
+    def assert_within(self, value, right, absolute, message=None):
+        """The same with an absolute tolerance."""
+        self.assertIsNotNone(value, message)
+        self.assertIsNotNone(right, message)
+        # Written so that a NaN fails.
+        self.assertTrue(abs(value - right) <= absolute, f"{message}: {value}, not {right}")
+
+    def assert_balanced(self, run):
+        """The ledger of mass holds to the tolerance that the design promises."""
+        self.assertLessEqual(run.summary["ledger"]["max_mass_imbalance"], 1e-8)
+
+
+def main():
+    """Runs the tests of the script that is called with the path of the binary."""
+    Program.path = str(pathlib.Path(sys.argv.pop(1)).resolve())
+    unittest.main(module="__main__")

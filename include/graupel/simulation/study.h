@@ -13,7 +13,8 @@ namespace graupel
   struct Measurement
   {
     std::string quantity;
-    double      value;
+    /** Nothing where the level has no such number. */
+    std::optional<double> value;
     /** Whether it is an error, that is whether the exact value is known to be 0. */
     bool is_error = false;
     /** Of the mean over several beds; 0 for a single one. */
@@ -29,8 +30,9 @@ namespace graupel
     double time_step     = 0.; // [s]
     double filter_length = 0.; // [m]
     double scale         = 1.; // [-]
-    /** The same quantities in the same order on every level. */
+    /** Without any of these if it has failed. */
     std::vector<Measurement> measurements;
+    bool                     has_failed = false;
   };
 
   /** Runs one level with these parameters, its files in its own directory. */
@@ -53,20 +55,24 @@ namespace graupel
    * The rows of a study whose levels have the sizes @p sizes (of what varies), from the
    * coarsest to the finest: errors with the order between two levels, other quantities
    * with order, Richardson's value and grid-convergence index of three
-   * (base/convergence.h).
+   * (base/convergence.h). The quantities are those of the first level that has any. A
+   * level that has failed, or has no such number, is a hole: it has rows without a value,
+   * and nothing is computed across it.
    */
   std::vector<StudyRow> evaluate_study(const std::vector<LevelResult> &levels,
                                        const std::vector<double>      &sizes);
 
   /**
    * The rows of a ladder of scales, from the largest to the smallest: from the third
-   * level on with the extrapolation to scale 1, whose relative error stands as index.
+   * level on with the extrapolation to scale 1, whose relative error stands as index. It
+   * begins anew behind a hole, as in a study.
    */
   std::vector<StudyRow> evaluate_ladder(const std::vector<LevelResult> &levels);
 
   /**
    * The mean of repeated levels, which measured the same quantities, with standard
-   * errors: s / sqrt(n), the deviation s being estimated with n - 1.
+   * errors: s / sqrt(n), the deviation s being estimated with n - 1. No number where one
+   * of them has none.
    */
   LevelResult mean_of(const std::vector<LevelResult> &repetitions);
 
@@ -74,10 +80,12 @@ namespace graupel
    * A refinement study: runs the same parameters on a list of mesh sizes, filter
    * lengths, time steps or scales, in the subdirectories level-1, level-2, ... (level-1-2
    * for its second bed) of @p directory, and writes study.csv there and a table to @p
-   * progress. A level that fails is told
-   * and left out. Without anything to vary it is level 1 alone. Collective.
+   * progress. check_levels() must have passed. A level that fails on all ranks is told,
+   * with its reason, and the others go on; a failure of one rank alone is thrown, as the
+   * others wait for it. Without anything to vary it is level 1 alone. Returns whether
+   * every level has succeeded. Collective.
    */
-  void run_study(const RunParameters &parameters,
+  bool run_study(const RunParameters &parameters,
                  const RunLevel      &run_level,
                  const std::string   &directory,
                  Progress            &progress,

@@ -47,6 +47,12 @@ namespace graupel
     /** Duration of a case at most [s]. */
     double case_duration(const double superficial_velocity, const double height) const;
 
+    /**
+     * Throws InputError if a flow case in a vessel of that height [m] ends while its
+     * velocity still ramps up, so that its results are not those of its velocity.
+     */
+    void check_ramp(const double height) const;
+
     /** Declares the section "Flow". */
     void declare(dealii::ParameterHandler &prm);
     void check() const;

@@ -1,0 +1,190 @@
+"""Every example in prm/, run to a value that analysis gives: the quick ones as they are, the
+long ones shortened. Called with the path of the binary.
+"""
+
+import math
+
+from runs import ROOT, RunTest, main
+
+EXAMPLES = ROOT / "prm"
+GRAVITY = 9.81
+AREA = math.pi * 0.025**2 / 4  # of the paper's vessel [m^2]
+
+# A quarter of the height of the paper's bed on a coarser mesh, its length of the filter kept.
+SHORTENED = {
+    "Geometry/height": 0.05,
+    "Filling/count": 600,
+    "Mesh/cell size": 3.2e-3,
+    "Mesh/cell height": 3.2e-3,
+    "Output/report": "false",
+}
+# What a shortened run would say nothing of; they are checked.
+TOO_LONG = (
+    "packed-bed/ricklick-1x-onset.prm",
+    "packed-bed/ricklick-1x-onset-aluminium.prm",
+    "packed-bed/ricklick-2x-onset.prm",
+    "packed-bed/ricklick-2x-onset-aluminium.prm",
+    "studies/ladder.prm",
+    "studies/original-bed.prm",
+)
+
+
+class ExampleTest(RunTest):
+    """Runs examples in a folder of its own."""
+
+    def finished(self, name, values=None, *more, **options):
+        """The run of an example, which must reach its end."""
+        values = {"Output/report": "false", **(values or {})}
+        run = self.run_file(EXAMPLES / name, values, *more, **options)
+        self.assertEqual(run.status, 0, run)
+        return run
+
+    def assert_momentum(self, run, area, density=1.2):
+        """What the fluid loses is what the particles get: drop times area is the force on them
+        less their hydrostatic buoyancy. Walls slip; in and out flow the same. A moving
+        particle and the solver leave a thousandth."""
+        solid = run.bed["solid_volume"]
+        for case in run.summary["cases"]:
+            force = case["fluid_force"] - density * GRAVITY * solid
+            self.assert_close(case["pressure_drop"] * area, force, 0.01, "drop times area")
+
+    def assert_carried(self, run):
+        """Walls and fluid carry the weight, to a hundredth: the bed still creeps."""
+        for case in run.summary["cases"]:
+            carried = case["bottom_force"] + case["wall_force"] + case["fluid_force"]
+            self.assert_close(carried, case["weight"], 0.01, "carried")
+
+
+class Complete(ExampleTest):
+    """No example goes without a test."""
+
+    def test_every_example_is_named_here(self):
+        text = (ROOT / "tests" / "simulation" / "examples_test.py").read_text(encoding="utf-8")
+        for file in EXAMPLES.rglob("*.prm"):
+            self.assertIn(f'"{file.relative_to(EXAMPLES)}"', text)
+
+
+class PackedBeds(ExampleTest):
+    """prm/packed-bed."""
+
+    def test_short(self):
+        run = self.finished("packed-bed/short.prm")
+        self.assert_momentum(run, AREA)
+        self.assert_carried(run)
+
+    def test_mixture(self):
+        run = self.finished("packed-bed/mixture.prm")
+        self.assert_momentum(run, AREA)
+        self.assert_carried(run)
+        # A quarter of the mass is steel, within one sphere of it.
+        glass, steel = 2500.0, 7800.0
+        density = 1.0 / (0.75 / glass + 0.25 / steel)
+        weight = density * run.bed["solid_volume"] * GRAVITY
+        self.assert_close(run.case["weight"], weight, 0.01, "weight")
+
+    def expect_ergun(self, name, values, velocity):
+        values = {**SHORTENED, "Flow/superficial velocities": velocity, **values}
+        run = self.finished(name, values)
+        # The wall lets more pass than Ergun's mean void fraction knows: 2 to 3 % in the bed of
+        # full height; the ends of this one are a quarter of it.
+        self.assert_within(run.case["deviation_from_ergun"], -0.02, 0.06, "from Ergun")
+        return run
+
+    def test_the_papers_scaled_bed(self):
+        exact = self.expect_ergun("packed-bed/ricklick-2x.prm", {}, "0.402")
+        self.assert_momentum(exact, AREA, 1.18415)
+        printed = self.finished(
+            "packed-bed/ricklick-2x-printed.prm",
+            {**SHORTENED, "Flow/superficial velocities": "0.402"},
+        )
+        # The coefficient is too large by 7/3 - 1.75: by the closure itself 8.6 to 12.7 %.
+        excess = printed.case["pressure_drop"] / exact.case["pressure_drop"] - 1.0
+        self.assertTrue(0.08 < excess < 0.135, excess)
+
+    def test_the_papers_own_bed(self):
+        values = {"Geometry/height": 0.025, "Filling/count": 2400}
+        self.expect_ergun("packed-bed/ricklick-1x.prm", values, "0.368")
+
+    def test_the_wider_vessel(self):
+        values = {"Geometry/height": 0.03, "Filling/count": 1200}
+        run = self.expect_ergun("packed-bed/ricklick-50mm.prm", values, "0.402")
+        self.assert_momentum(run, 4 * AREA, 1.18415)
+
+    def test_the_mesh_that_adapts(self):
+        values = {"Flow/superficial velocities": "0.402", "Flow/flow-throughs": 1}
+        drops = []
+        for passes in (0, 1):
+            more = {"Mesh adaption/initial passes": passes}
+            if passes == 0:
+                more["Mesh adaption/interval"] = 0
+            run = self.finished("packed-bed/adaptive.prm", {**SHORTENED, **values, **more})
+            drops.append(run.case["pressure_drop"])
+        # Cells of half the size at surface and wall, the same filter.
+        self.assert_close(drops[1], drops[0], 0.03, "drop on the adapted mesh")
+
+
+class Vessels(ExampleTest):
+    """prm/vessels."""
+
+    def test_two_inlets(self):
+        run = self.finished("vessels/side-inlet.prm", {"Flow/mode": "steady"})
+        # 0.2 m/s through the bottom and as much through the side.
+        self.assert_close(run.case["superficial_velocity"], 0.4, 1e-6, "what flows")
+        self.assert_balanced(run)
+        end = run.rows("monitors.csv")[-1]
+        carried = end["support_force"] + end["fluid_force"]
+        self.assert_close(carried, run.case["weight"], 1e-3, "carried")
+
+
+class Studies(ExampleTest):
+    """prm/studies."""
+
+    def rows_of(self, run, quantity):
+        return [row for row in run.rows("study.csv") if row["quantity"].startswith(quantity)]
+
+    def test_the_drop_does_not_depend_on_the_step(self):
+        run = self.finished("studies/time-step.prm", {"Refinement study/values": "5e-3, 5e-4"})
+        rows = self.rows_of(run, "pressure drop at 0.4 m/s")
+        self.assertEqual(len(rows), 2)
+        for row in rows:
+            self.assert_within(row["value"], 99.8, 0.2, "pressure drop")
+        self.assert_close(rows[1]["value"], rows[0]["value"], 1e-3, "of the finer step")
+
+    def test_a_case_within_its_ramp_is_refused(self):
+        run = self.run_file(EXAMPLES / "studies/time-step.prm", {"Flow/ramp time": 0.1})
+        self.assertEqual(run.status, 1, run)
+        self.assertIn("Flow/ramp time", run.refusal)
+        self.assertFalse(run.directory.exists())
+
+    def test_the_flow_solver_has_order_two(self):
+        run = self.finished(
+            "studies/manufactured-solution.prm", {"Refinement study/values": "0.1667, 0.0833"}
+        )
+        for quantity in ("error of the flux", "error of the pressure"):
+            order = self.rows_of(run, quantity)[-1]["observed_order"]
+            # Two coarse meshes: the next term of the error still counts.
+            self.assert_within(order, 2.0, 0.3, quantity)
+
+    def test_the_mesh_does_not_matter(self):
+        run = self.finished(
+            "studies/packed-bed-mesh.prm",
+            {**SHORTENED, "Filling/count": 300, "Geometry/height": 0.03,
+             "Refinement study/values": "4.2e-3, 3.2e-3"},
+        )  # fmt: skip
+        rows = self.rows_of(run, "pressure drop")
+        self.assert_close(rows[1]["value"], rows[0]["value"], 0.02, "of the finer mesh")
+
+
+class TooLong(ExampleTest):
+    """Hours rather than seconds: only what --check says."""
+
+    def test_they_are_free_of_contradictions(self):
+        for name in TOO_LONG:
+            run = self.run_file(EXAMPLES / name, None, "--check")
+            self.assertEqual(run.status, 0, run)
+            self.assertIn("No contradictions", run.said)
+            self.assertFalse(run.directory.exists())
+
+
+if __name__ == "__main__":
+    main()
