@@ -3,6 +3,7 @@
 #include <graupel/simulation/files/may_change.h>
 #include <graupel/simulation/report.h>
 #include <graupel/simulation/simulation.h>
+#include <graupel/simulation/study_levels.h>
 #include <graupel/simulation/study_runs.h>
 
 #include <CLI/CLI.hpp>
@@ -81,10 +82,7 @@ namespace
 
   // False if a level has failed.
   bool
-  run_levels(const RunParameters            &parameters,
-             const std::string              &file,
-             const dealii::ParameterHandler &prm,
-             Progress                       &progress)
+  run_levels(const RunParameters &parameters, const std::string &file, Progress &progress)
   {
     const RunLevel manufactured = [&](const RunParameters &level,
                                       const std::string   &directory) {
@@ -94,7 +92,7 @@ namespace
                                     const std::string   &directory) {
       ResultFiles own(directory, MPI_COMM_WORLD);
       Simulation  simulation(level, file, own, progress, MPI_COMM_WORLD);
-      own.begin(prm);
+      own.begin();
       simulation.run();
       return packed_bed_level(level, simulation.result());
     };
@@ -117,9 +115,9 @@ namespace
                              : Progress();
     if (is_study(parameters))
       {
-        files.begin(prm);
-        return run_levels(parameters, options.file, prm, progress) ? Outcome::finished
-                                                                   : Outcome::failed;
+        files.begin(&prm);
+        return run_levels(parameters, options.file, progress) ? Outcome::finished
+                                                              : Outcome::failed;
       }
     Simulation simulation(parameters, options.file, files, progress, MPI_COMM_WORLD);
     if (options.resume)
@@ -128,7 +126,7 @@ namespace
         files.go_on(prm);
       }
     else
-      files.begin(prm);
+      files.begin(&prm);
     simulation.run();
     return Outcome::finished;
   }

@@ -27,7 +27,8 @@ namespace graupel
         parameters.coupling.filter_length = text_of(parameters.filter_length() * growth);
       for (ParticleType &type : parameters.dem.particles.further_types)
         type.scale *= growth;
-      parameters.dem.particles.scale = scale;
+      parameters.dem.particles.scale      = scale;
+      parameters.texts["Particles/scale"] = text_of(scale);
     }
 
     RunParameters

@@ -18,9 +18,8 @@ namespace graupel
   packed_bed_level(const RunParameters &parameters, const Summary &summary)
   {
     LevelResult result;
-    result.cells     = summary.cells;
-    result.cell_size = representative_size(
-      summary.cross_section * parameters.cylinder.height, summary.cells);
+    result.cells         = summary.cells;
+    result.cell_size     = representative_size(summary.volume, summary.cells);
     result.time_step     = parameters.sweep.time_step;
     result.filter_length = parameters.filter_length();
     result.scale         = parameters.dem.particles.scale;
@@ -29,13 +28,15 @@ namespace graupel
     for (const CaseResult &flow : summary.cases)
       {
         std::ostringstream at;
-        at << " at " << flow.superficial_velocity << " m/s";
+        if (const Value &velocity = flow["nominal_velocity"])
+          at << " at " << *velocity << " m/s";
+        const Value &gradient = flow["gradient_deviation_from_ergun"];
         result.measurements.push_back(
-          {"pressure drop" + at.str() + " [Pa]", flow.pressure_drop});
+          {"pressure drop" + at.str() + " [Pa]", flow["pressure_drop"]});
         result.measurements.push_back({"middle gradient over Ergun's" + at.str() + " [-]",
-                                       1. + flow.gradient_deviation_from_ergun});
+                                       gradient ? Value(1. + *gradient) : Value()});
         result.measurements.push_back(
-          {"bottom force" + at.str() + " [N]", flow.bottom_force});
+          {"bottom force" + at.str() + " [N]", flow["bottom_force"]});
       }
     return result;
   }
@@ -46,7 +47,8 @@ namespace graupel
                      Progress            &progress,
                      MPI_Comm             communicator)
   {
-    ResultFiles                files(directory, communicator);
+    ResultFiles files(directory, communicator);
+    files.begin();
     CostSheet                  costs;
     const VesselMesh           mesh(parameters.cylinder, parameters.mesh, communicator);
     const NodalSpace           nodes(mesh);
@@ -65,8 +67,7 @@ namespace graupel
 
     LevelResult result;
     result.cells     = mesh.triangulation().n_global_active_cells();
-    result.cell_size = representative_size(
-      mesh.cylinder().cross_section() * parameters.cylinder.height, result.cells);
+    result.cell_size = representative_size(mesh.volume(), result.cells);
     result.time_step =
       parameters.manufactured.duration > 0. ? parameters.sweep.time_step : 0.;
     result.measurements = {{"error of the flux [-]", errors.flux, true},

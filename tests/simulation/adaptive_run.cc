@@ -30,7 +30,7 @@ namespace
       ResultFiles files(directory.string(), MPI_COMM_WORLD);
       Progress    silent;
       Simulation  simulation(parameters, "short.prm", files, silent, MPI_COMM_WORLD);
-      files.begin(prm);
+      files.begin();
       simulation.run();
       summary = simulation.result();
     }

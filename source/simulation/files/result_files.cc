@@ -119,7 +119,7 @@ namespace graupel
   }
 
   void
-  ResultFiles::begin(const dealii::ParameterHandler &prm)
+  ResultFiles::begin(const dealii::ParameterHandler *prm)
   {
     std::string failure;
     if (is_writer)
@@ -136,7 +136,8 @@ namespace graupel
             "Output/directory",
             "cannot be written (" + failure + "); choose another with --output");
     open_log(std::ios::out);
-    write_parameters(prm);
+    if (prm != nullptr)
+      write_parameters(*prm);
   }
 
   void

@@ -112,6 +112,9 @@ namespace graupel
   FlowCase::end()
   {
     state.progress.finish_phase();
+    if (!strategy->is_steady() && frame.velocity &&
+        frame.time() < state.parameters.sweep.ramp_time)
+      state.progress.say("warning: the case ended while its velocity still ramped up");
     const CostSheet::Scope timing(state.costs, CostSheet::output);
     const double           cpu =
       dealii::Utilities::MPI::sum(state.cpu_seconds() - cpu_start, state.communicator);

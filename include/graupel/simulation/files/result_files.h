@@ -24,10 +24,10 @@ namespace graupel
 
     /**
      * Makes the directory, or takes what earlier runs have written out of it, their own
-     * files only, and writes parameters.prm. Throws InputError("Output/directory", ...)
-     * if it cannot be written. Collective.
+     * files only, and writes parameters.prm if there is something to write. Throws
+     * InputError("Output/directory", ...) if it cannot be written. Collective.
      */
-    void begin(const dealii::ParameterHandler &prm);
+    void begin(const dealii::ParameterHandler *prm = nullptr);
 
     /** The same where an earlier run goes on: only parameters.prm is written anew. */
     void go_on(const dealii::ParameterHandler &prm);
