@@ -3,8 +3,8 @@
 #include <graupel/simulation/files/may_change.h>
 #include <graupel/simulation/report.h>
 #include <graupel/simulation/simulation.h>
-#include <graupel/simulation/study_levels.h>
-#include <graupel/simulation/study_runs.h>
+#include <graupel/simulation/studies/study_levels.h>
+#include <graupel/simulation/studies/study_runs.h>
 
 #include <CLI/CLI.hpp>
 

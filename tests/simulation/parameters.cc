@@ -1,6 +1,6 @@
 #include <graupel/base/parameter_entries.h>
 #include <graupel/base/parameters.h>
-#include <graupel/simulation/run_parameters.h>
+#include <graupel/simulation/parameters/run_parameters.h>
 
 #include <gtest/gtest.h>
 

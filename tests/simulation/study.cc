@@ -1,6 +1,6 @@
 #include <graupel/base/parameters.h>
-#include <graupel/simulation/study.h>
-#include <graupel/simulation/study_levels.h>
+#include <graupel/simulation/studies/study.h>
+#include <graupel/simulation/studies/study_levels.h>
 
 #include <gtest/gtest.h>
 

@@ -3,7 +3,7 @@
 
 #include <graupel/dem/dem_state.h>
 #include <graupel/simulation/files/result_files.h>
-#include <graupel/simulation/run_parameters.h>
+#include <graupel/simulation/parameters/run_parameters.h>
 
 namespace graupel
 {

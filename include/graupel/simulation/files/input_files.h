@@ -1,7 +1,7 @@
 #ifndef graupel_simulation_files_input_files_h
 #define graupel_simulation_files_input_files_h
 
-#include <graupel/simulation/run_parameters.h>
+#include <graupel/simulation/parameters/run_parameters.h>
 
 namespace graupel
 {

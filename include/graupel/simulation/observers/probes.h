@@ -1,7 +1,7 @@
 #ifndef graupel_simulation_observers_probes_h
 #define graupel_simulation_observers_probes_h
 
-#include <graupel/simulation/probe_points.h>
+#include <graupel/simulation/parameters/probe_points.h>
 #include <graupel/simulation/state/simulation_state.h>
 
 #include <deal.II/base/mpi_remote_point_evaluation.h>

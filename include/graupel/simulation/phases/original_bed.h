@@ -3,7 +3,7 @@
 
 #include <graupel/base/progress.h>
 #include <graupel/dem/bed/bed_observables.h>
-#include <graupel/simulation/run_parameters.h>
+#include <graupel/simulation/parameters/run_parameters.h>
 
 namespace graupel
 {

@@ -3,7 +3,7 @@
 
 #include <graupel/coupling/exchange.h>
 #include <graupel/dem/dem.h>
-#include <graupel/simulation/run_parameters.h>
+#include <graupel/simulation/parameters/run_parameters.h>
 
 #include <functional>
 #include <optional>

@@ -1,5 +1,5 @@
 #include <graupel/base/parameters.h>
-#include <graupel/simulation/probe_points.h>
+#include <graupel/simulation/parameters/probe_points.h>
 
 #include <deal.II/base/utilities.h>
 

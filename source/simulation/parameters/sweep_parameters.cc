@@ -1,5 +1,5 @@
 #include <graupel/base/parameters.h>
-#include <graupel/simulation/sweep_parameters.h>
+#include <graupel/simulation/parameters/sweep_parameters.h>
 
 #include <sstream>
 

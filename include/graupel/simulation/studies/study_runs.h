@@ -1,8 +1,8 @@
-#ifndef graupel_simulation_study_runs_h
-#define graupel_simulation_study_runs_h
+#ifndef graupel_simulation_studies_study_runs_h
+#define graupel_simulation_studies_study_runs_h
 
 #include <graupel/simulation/files/summary.h>
-#include <graupel/simulation/study.h>
+#include <graupel/simulation/studies/study.h>
 
 namespace graupel
 {

@@ -1,5 +1,5 @@
 #include <graupel/base/parameters.h>
-#include <graupel/simulation/study_parameters.h>
+#include <graupel/simulation/parameters/study_parameters.h>
 
 #include <algorithm>
 #include <functional>

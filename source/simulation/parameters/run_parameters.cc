@@ -1,7 +1,7 @@
 #include <graupel/base/parameters.h>
 #include <graupel/closures/bed_correlations.h>
-#include <graupel/simulation/probe_points.h>
-#include <graupel/simulation/run_parameters.h>
+#include <graupel/simulation/parameters/probe_points.h>
+#include <graupel/simulation/parameters/run_parameters.h>
 
 #include <iomanip>
 #include <sstream>

@@ -1,5 +1,5 @@
 #include <graupel/simulation/files/result_files.h>
-#include <graupel/simulation/study_runs.h>
+#include <graupel/simulation/studies/study_runs.h>
 
 #include <sstream>
 

@@ -1,5 +1,5 @@
-#ifndef graupel_simulation_study_parameters_h
-#define graupel_simulation_study_parameters_h
+#ifndef graupel_simulation_parameters_study_parameters_h
+#define graupel_simulation_parameters_study_parameters_h
 
 #include <deal.II/base/parameter_handler.h>
 

@@ -1,5 +1,5 @@
-#ifndef graupel_simulation_run_parameters_h
-#define graupel_simulation_run_parameters_h
+#ifndef graupel_simulation_parameters_run_parameters_h
+#define graupel_simulation_parameters_run_parameters_h
 
 #include <graupel/coupling/exchange.h>
 #include <graupel/dem/packing/feed.h>
@@ -7,9 +7,9 @@
 #include <graupel/dem/packing/settling.h>
 #include <graupel/fluid/manufactured_solution.h>
 #include <graupel/mesh/adaption.h>
-#include <graupel/simulation/original_bed_parameters.h>
-#include <graupel/simulation/study_parameters.h>
-#include <graupel/simulation/sweep_parameters.h>
+#include <graupel/simulation/parameters/original_bed_parameters.h>
+#include <graupel/simulation/parameters/study_parameters.h>
+#include <graupel/simulation/parameters/sweep_parameters.h>
 
 namespace graupel
 {

@@ -1,5 +1,5 @@
 #include <graupel/base/parameters.h>
-#include <graupel/simulation/original_bed_parameters.h>
+#include <graupel/simulation/parameters/original_bed_parameters.h>
 
 namespace graupel
 {

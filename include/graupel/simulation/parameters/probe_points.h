@@ -1,5 +1,5 @@
-#ifndef graupel_simulation_probe_points_h
-#define graupel_simulation_probe_points_h
+#ifndef graupel_simulation_parameters_probe_points_h
+#define graupel_simulation_parameters_probe_points_h
 
 #include <deal.II/base/point.h>
 

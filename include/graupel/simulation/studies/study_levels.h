@@ -1,7 +1,7 @@
-#ifndef graupel_simulation_study_levels_h
-#define graupel_simulation_study_levels_h
+#ifndef graupel_simulation_studies_study_levels_h
+#define graupel_simulation_studies_study_levels_h
 
-#include <graupel/simulation/run_parameters.h>
+#include <graupel/simulation/parameters/run_parameters.h>
 
 namespace graupel
 {

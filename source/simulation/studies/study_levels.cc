@@ -1,5 +1,5 @@
 #include <graupel/base/parameters.h>
-#include <graupel/simulation/study_levels.h>
+#include <graupel/simulation/studies/study_levels.h>
 
 #include <iomanip>
 #include <sstream>

@@ -1,8 +1,8 @@
-#ifndef graupel_simulation_study_h
-#define graupel_simulation_study_h
+#ifndef graupel_simulation_studies_study_h
+#define graupel_simulation_studies_study_h
 
 #include <graupel/base/progress.h>
-#include <graupel/simulation/run_parameters.h>
+#include <graupel/simulation/parameters/run_parameters.h>
 
 #include <functional>
 #include <optional>
