@@ -322,6 +322,18 @@ namespace graupel
     return origin->second + ": " + value + ": " + reason;
   }
 
+  std::map<std::string, std::string>
+  ParameterFile::texts() const
+  {
+    std::map<std::string, std::string> result;
+    for (const std::string &path : known)
+      {
+        const auto [sections, name] = split_path(path);
+        result[path]                = handler.get(sections, name);
+      }
+    return result;
+  }
+
   const std::vector<std::string> &
   ParameterFile::known_parameters() const
   {
