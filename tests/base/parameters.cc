@@ -145,6 +145,20 @@ TEST(ParameterFile, KnowsEveryDeclaredPath)
                                       "Output/name"}));
 }
 
+TEST(ParameterFile, TellsEveryValueAsText)
+{
+  Declared      declared;
+  ParameterFile file(declared.handler);
+  file.set("Geometry/diameter=5e-2");
+  EXPECT_EQ(file.texts(),
+            (std::map<std::string, std::string>{{"Coupling/Filter/length", "0.0016"},
+                                                {"Coupling/Filter/velocities", "0.271"},
+                                                {"Coupling/scaling", "exact"},
+                                                {"Geometry/diameter", "5e-2"},
+                                                {"Geometry/layers", "4"},
+                                                {"Output/name", "output"}}));
+}
+
 TEST(ParameterFile, SaysWhereAValueCameFrom)
 {
   Declared      declared;

@@ -38,8 +38,8 @@ namespace graupel
                const std::string &reason);
 
   /**
-   * The number that @p text, the value of @p parameter, is; nothing where it is one of
-   * @p words. Throws InputError for any other text.
+   * The number that @p text, the value of @p parameter, is (number_in()); nothing where
+   * it is one of @p words. Throws InputError for any other text.
    */
   std::optional<double> number_or_word(const std::string              &parameter,
                                        const std::string              &text,
@@ -50,8 +50,11 @@ namespace graupel
    * entries the rooms have declared, and remembers where each value came from.
    *
    * The text format is deal.II's: `subsection NAME`, `set name = value`, `end`,
-   * `include FILE` (relative to the including file), comments from `#`, and a
-   * backslash at the end of a line to continue it.
+   * `include FILE` (relative to the including file), comments, and a backslash at the end
+   * of a line to continue it. A comment begins at a `#` that is first in its line or
+   * behind a blank ("run#1" is a name); a backslash within it continues nothing. Of two
+   * settings of one entry the later counts. A value that no file can hold is refused, so
+   * that what the handler prints is read back to the same values.
    */
   class ParameterFile
   {
@@ -62,7 +65,8 @@ namespace graupel
     /**
      * Reads a whole file. Throws InputError for an unknown section or entry
      * (naming the nearest known one), for a value that does not fit its
-     * entry's pattern, and for a file that cannot be read or is not closed.
+     * entry's pattern, and for a file that cannot be read (or is no file, as
+     * /dev/zero), that includes itself or is not closed.
      */
     void read(const std::string &file_name);
 
@@ -79,7 +83,7 @@ namespace graupel
      */
     std::string explain(const InputError &error) const;
 
-    /** The value of every declared entry as text, by its path. */
+    /** The value of every declared entry as text, by its path "Section/name". */
     std::map<std::string, std::string> texts() const;
 
     /** Paths "Section/name" of every declared entry, sorted. */
