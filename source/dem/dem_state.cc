@@ -148,6 +148,7 @@ namespace graupel
         mine.push_back(contact);
       }
     contacts.add(arrays, std::move(mine));
+    shape.follow(walls);
     n_departed_so_far = state.n_departed;
     list_is_valid     = false;
   }

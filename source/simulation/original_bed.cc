@@ -31,7 +31,8 @@ namespace graupel
     fill_vessel(filling, dem, progress, name);
     settle_bed(settling, dem, progress, name);
 
-    const auto bed = BedObservables(dem.particles(), dem.cylinder(), communicator).bed();
+    const auto bed =
+      BedObservables(dem.particles(), dem.vessel_shape(), communicator).bed();
     std::ostringstream text;
     text << std::setprecision(4) << "original bed: " << dem.n_global()
          << " particles, height " << bed.height * 1e3 << " mm, mean void fraction "

@@ -41,7 +41,7 @@ namespace graupel
     , communicator(communicator)
     , mesh(parameters.cylinder, parameters.mesh, communicator)
     , dem(parameters.dem, mesh, summary.costs)
-    , observables(dem.particles(), dem.cylinder(), communicator)
+    , observables(dem.particles(), dem.vessel_shape(), communicator)
     , next_output(parameters.output.interval)
     , step_limit(parameters.sweep.time_step)
     , steady(parameters.sweep.steady_window, parameters.sweep.steady_tolerance, 1.)
@@ -149,7 +149,7 @@ namespace graupel
     if (dealii::Utilities::MPI::this_mpi_process(communicator) == 0)
       write_bed(files.path("bed.bin"), identity_of_bed(parameters), particles);
     files.add_particles(time, dem);
-    files.write_bed(bed_profiles(dem, bed.height, parameters.simulated_diameter()));
+    files.write_bed(bed_profiles(dem, bed, parameters.simulated_diameter()));
     if (parameters.output.force_chains)
       files.add_contacts(time, dem);
   }
@@ -160,7 +160,7 @@ namespace graupel
     summary.wall_seconds  = Progress::steady_seconds() - started;
     summary.cpu_seconds   = cpu_seconds();
     summary.cells         = mesh.triangulation().n_global_active_cells();
-    summary.cross_section = mesh.cylinder().cross_section();
+    summary.cross_section = mesh.mean_cross_section();
     write_summary(files.path("summary.json"), summary, communicator);
   }
 } // namespace graupel

@@ -333,10 +333,10 @@ namespace graupel
     const auto       n_slabs = static_cast<unsigned int>(
       std::max(10l, std::lround(parameters.cylinder.height / parameters.mesh.cell_size)));
     const auto   axial = axial_profile(fields, n_slabs);
-    const double lower = 0.25 * bed.height, upper = 0.75 * bed.height;
+    const double lower = bed.bottom + 0.25 * bed.height,
+                 upper = bed.bottom + 0.75 * bed.height;
     const double middle_void_fraction =
-      1. - observables.solid_volume_between(lower, upper) /
-             (mesh.cylinder().cross_section() * (upper - lower));
+      1. - observables.solid_fractions({lower, upper})[0];
     const double gradient =
       (pressure_at(axial, lower) - pressure_at(axial, upper)) / (upper - lower);
     result.gradient_deviation_from_ergun =

@@ -66,7 +66,7 @@ namespace graupel
     LevelResult result;
     result.cells     = mesh.triangulation().n_global_active_cells();
     result.cell_size = representative_size(
-      mesh.cylinder().cross_section() * parameters.cylinder.height, result.cells);
+      mesh.mean_cross_section() * parameters.cylinder.height, result.cells);
     result.time_step =
       parameters.manufactured.duration > 0. ? parameters.sweep.time_step : 0.;
     result.measurements = {{"error of the flux [-]", errors.flux, true},

@@ -194,11 +194,11 @@ namespace graupel
   Filling::expected_height() const
   {
     const BedObservables::Bed bed =
-      BedObservables(dem.particles(), dem.cylinder(), dem.communicator()).bed();
+      BedObservables(dem.particles(), dem.vessel_shape(), dem.communicator()).bed();
     // A heap of a few layers has no bulk yet, and rain is none.
     const bool   is_bed = bed.height > 12. * radius && bed.bulk_solid_fraction > 0.5;
     const double bulk   = is_bed ? bed.bulk_solid_fraction : usual_solid_fraction;
-    return dem.solid_volume() / (dem.cylinder().cross_section() * bulk);
+    return dem.vessel_shape().depth_of(dem.solid_volume(), bulk);
   }
 
   unsigned int
@@ -210,8 +210,10 @@ namespace graupel
       return static_cast<unsigned int>(
         std::max(0., std::round((input.mass - dem.solid_mass()) / source.mean_mass())));
 
-    const double missing_volume = (input.bed_height - expected_height()) *
-                                  dem.cylinder().cross_section() * usual_solid_fraction;
+    const Vessel &vessel         = dem.vessel_shape();
+    const double  missing_volume = vessel.volume(vessel.floor() + expected_height(),
+                                                vessel.floor() + input.bed_height) *
+                                  usual_solid_fraction;
     return static_cast<unsigned int>(
       std::max(0., missing_volume * dem.mean_density() / source.mean_mass()));
   }
@@ -226,9 +228,10 @@ namespace graupel
     if (input.mass > 0.)
       return std::min(1., dem.solid_mass() / input.mass);
     if (input.bed_height > 0.)
-      return std::min(1.,
-                      dem.solid_volume() / (dem.cylinder().cross_section() *
-                                            usual_solid_fraction * input.bed_height));
+      return std::min(
+        1.,
+        dem.vessel_shape().depth_of(dem.solid_volume(), usual_solid_fraction) /
+          input.bed_height);
     return 0.;
   }
 
@@ -269,9 +272,8 @@ namespace graupel
   {
     RandomPlaces places(dem.cylinder(), dem.vessel(), lower, upper, radius, gap);
     add_obstacles(places, lower - 2. * (1. + gap) * radius);
-    const double most_solid =
-      solid_fraction * dem.cylinder().cross_section() * (upper - lower);
-    const auto random = [this]() { return next_random(); };
+    const double most_solid = solid_fraction * dem.vessel_shape().volume(lower, upper);
+    const auto   random     = [this]() { return next_random(); };
 
     std::vector<NewParticle> added;
     double                   solid = 0.;
@@ -326,7 +328,8 @@ namespace graupel
     const double d     = 2. * radius;
     const double upper = dem.cylinder().height;
     const double lower =
-      dem.n_global() == 0 ? 0. : expected_height() + batch_clearance * d;
+      dem.vessel_shape().floor() +
+      (dem.n_global() == 0 ? 0. : expected_height() + batch_clearance * d);
     if (upper - lower < least_batch * d)
       return drop_layer(at_most);
     fill_section(lower, upper, at_most, most_tries, loose_solid_fraction, true);
