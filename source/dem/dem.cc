@@ -2,6 +2,7 @@
 #include <graupel/dem/dem.h>
 #include <graupel/dem/numbers/exact_sum.h>
 #include <graupel/dem/particles/dem_error.h>
+#include <graupel/dem/vessel/mesh_planes.h>
 
 #include <limits>
 #include <numeric>
@@ -67,7 +68,8 @@ namespace graupel
     , longest_substep(input.substep())
     , skin(input.contact.skin * 2. * input.largest_radius())
     , near_skin(std::min(0.5 * skin, relative_near_skin * input.largest_radius()))
-    , walls(input.walls.walls(mesh.cylinder()))
+    , walls(all_walls(input.walls, mesh))
+    , shape(mesh, walls)
     , materials(input.materials(false, walls))
     , gravity(input.gravity())
     , particle_store(mesh)
@@ -327,6 +329,7 @@ namespace graupel
         kick(arrays, integration(dt));
       }
 
+    shape.follow(walls);
     wall_loads = contacts.wall_loads(communicator());
     for (auto &load : wall_loads)
       {
@@ -416,18 +419,21 @@ namespace graupel
   Dem::open_and_close_gates()
   {
     std::string problem;
-    bool        some_wall_comes = false;
+    bool        some_wall_comes = false, some_wall_changes = false;
     for (unsigned int w = 0; w < walls.size(); ++w)
       if (walls[w].look_at(time))
         {
           // Whoever is near it must be found anew.
           contacts.leave_wall(w);
           list.clear();
-          list_is_valid   = false;
-          some_wall_comes = some_wall_comes || walls[w].is_there;
+          list_is_valid     = false;
+          some_wall_changes = true;
+          some_wall_comes   = some_wall_comes || walls[w].is_there;
           if (walls[w].is_there)
             problem += in_the_way_of(walls[w]);
         }
+    if (some_wall_changes)
+      shape.follow(walls);
     if (some_wall_comes)
       throw_together(problem, communicator());
   }

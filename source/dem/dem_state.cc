@@ -173,6 +173,7 @@ namespace graupel
       }
     contacts.add(arrays, std::move(mine));
     restore_counts(state);
+    shape.follow(walls);
     use_packing_materials(state.packing_materials);
     list_is_valid = false;
   }

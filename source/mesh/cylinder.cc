@@ -8,7 +8,7 @@ namespace graupel
   double
   Cylinder::cross_section() const
   {
-    return section > 0. ? section : dealii::numbers::PI * diameter * diameter / 4.;
+    return dealii::numbers::PI * diameter * diameter / 4.;
   }
 
   void

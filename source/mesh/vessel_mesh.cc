@@ -19,6 +19,8 @@ namespace graupel
 
     // Of the vessel's sizes, within which a vertex lies where it is meant to.
     constexpr double vertex_tolerance = 1e-4;
+    // Of the cylinder's volume, which a mesh of it may lack.
+    constexpr double section_tolerance = 1e-3;
 
     // A disc of a few cells, and how many of them lie across its diameter; after
     // extrusion their cells stay compact, where GridGenerator::cylinder has
@@ -191,7 +193,22 @@ namespace graupel
         forest.refine_global();
         ++initial_level;
       }
-    vessel.section = dealii::GridTools::volume(forest, quadratic) / vessel.height;
+    contour = std::make_shared<const MeshOutline>(vessel, forest, curved, boundary_ids);
+  }
+
+  bool
+  VesselMesh::fills_cylinder() const
+  {
+    const double full = vessel.cross_section() * vessel.height;
+    return !contour ||
+           contour->volume(0., vessel.height) > (1. - section_tolerance) * full;
+  }
+
+  double
+  VesselMesh::mean_cross_section() const
+  {
+    return contour ? contour->volume(0., vessel.height) / vessel.height
+                   : vessel.cross_section();
   }
 
   void

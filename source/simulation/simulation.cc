@@ -61,7 +61,7 @@ namespace graupel
     mesh_line << "mesh: " << state.mesh.triangulation().n_global_active_cells()
               << " cells, on " << mpi::n_mpi_processes(state.communicator) << " rank(s)";
     state.progress.say(mesh_line.str());
-    if (const std::string difference = state.dem.space().difference();
+    if (const std::string difference = state.dem.vessel_shape().difference();
         !difference.empty())
       state.progress.say("warning: " + difference);
     if (checkpoint)
@@ -170,10 +170,10 @@ namespace graupel
     rest.mean_coordination_number = state.dem.coordination_number();
     rest.vessel_diameter          = state.parameters.cylinder.diameter;
     rest.vessel_height            = state.parameters.cylinder.height;
-    if (bed.exists())
+    if (bed.exists)
       {
         rest.bottom             = bed.bottom;
-        rest.height             = bed.height();
+        rest.height             = bed.height;
         rest.mean_void_fraction = bed.mean_void_fraction;
       }
     state.progress.say(describe_bed(rest, state.dem));
@@ -185,9 +185,9 @@ namespace graupel
     if (mpi::this_mpi_process(state.communicator) == 0)
       write_bed(files.path("bed.bin"), state.parameters, particles);
     files.add_particles(state.time, state.dem);
-    if (bed.exists())
+    if (bed.exists)
       files.write_bed(
-        bed_profiles(state.dem, bed.height(), state.parameters.simulated_diameter()));
+        bed_profiles(state.dem, bed, state.parameters.simulated_diameter()));
     if (state.parameters.output.force_chains)
       files.add_contacts(state.time, state.dem);
   }
@@ -213,7 +213,7 @@ namespace graupel
     summary.wall_seconds = Progress::steady_seconds() - started;
     summary.cpu_seconds  = state.cpu_seconds();
     summary.cells        = state.mesh.triangulation().n_global_active_cells();
-    summary.volume       = state.mesh.volume();
+    summary.volume       = state.mesh.mean_cross_section() * state.parameters.cylinder.height;
     write_summary(files.path("summary.json"), summary, state.communicator);
   }
 } // namespace graupel

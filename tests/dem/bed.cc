@@ -60,7 +60,8 @@ namespace
   // Limits: the quanta of the sums, the bisection.
   TEST_F(Lattice, HeightAndVoidFraction)
   {
-    const BedObservables observables(particles, cylinder, MPI_COMM_WORLD);
+    const Vessel         vessel(cylinder);
+    const BedObservables observables(particles, vessel, MPI_COMM_WORLD);
     const auto           bed = observables.bed();
     EXPECT_NEAR(bed.bulk_solid_fraction, PI / 6., 1e-7);
     EXPECT_NEAR(bed.height, layers * d, 1e-6 * d);
@@ -77,17 +78,20 @@ namespace
   // Spheres that fall from above are not the bed.
   TEST_F(Lattice, FallingParticlesDoNotCount)
   {
-    const auto resting = BedObservables(particles, cylinder, MPI_COMM_WORLD).bed();
+    const auto resting =
+      BedObservables(particles, Vessel(cylinder), MPI_COMM_WORLD).bed();
     add(Point<3>(0., 0., 50. * d));
     add(Point<3>(2. * d, 0., 55. * d));
-    const auto raining = BedObservables(particles, cylinder, MPI_COMM_WORLD).bed();
+    const auto raining =
+      BedObservables(particles, Vessel(cylinder), MPI_COMM_WORLD).bed();
     EXPECT_NEAR(raining.height, resting.height, 1e-6 * d);
   }
 
   TEST(BedObservables, NoParticlesNoBed)
   {
     const ParticleArrays nothing;
-    const auto bed = BedObservables(nothing, SmallColumn::vessel(), MPI_COMM_WORLD).bed();
+    const auto           bed =
+      BedObservables(nothing, Vessel(SmallColumn::vessel()), MPI_COMM_WORLD).bed();
     EXPECT_EQ(bed.height, 0.);
     EXPECT_EQ(bed.mean_void_fraction, 1.);
   }
@@ -127,7 +131,8 @@ namespace
     EXPECT_GE(column.dem.bottom_force(), 0.3 * weight);
     EXPECT_GE(column.dem.coordination_number(), 3.5);
     const auto bed =
-      BedObservables(column.dem.particles(), column.dem.cylinder(), MPI_COMM_WORLD).bed();
+      BedObservables(column.dem.particles(), column.dem.vessel_shape(), MPI_COMM_WORLD)
+        .bed();
     EXPECT_GE(bed.mean_void_fraction, 0.40);
     EXPECT_LE(bed.mean_void_fraction, 0.52);
   }
@@ -156,11 +161,12 @@ namespace
     while (settling.step())
       {
       }
-    EXPECT_NEAR(BedObservables(high.dem.particles(), high.dem.cylinder(), MPI_COMM_WORLD)
-                  .bed()
-                  .height,
-                0.02,
-                1.5 * 2e-3);
+    EXPECT_NEAR(
+      BedObservables(high.dem.particles(), high.dem.vessel_shape(), MPI_COMM_WORLD)
+        .bed()
+        .height,
+      0.02,
+      1.5 * 2e-3);
   }
 
   // A bed that is too loose is tapped to its target, and not far beyond: one
@@ -173,7 +179,7 @@ namespace
       {
       }
     const BedObservables observables(
-      column.dem.particles(), column.dem.cylinder(), MPI_COMM_WORLD);
+      column.dem.particles(), column.dem.vessel_shape(), MPI_COMM_WORLD);
     Settling first(SettlingParameters(), column.dem);
     while (first.step())
       {

@@ -114,7 +114,7 @@ namespace
         EXPECT_EQ(shells[k].void_fraction, alone[k].void_fraction) << "shell " << k;
         solid += (1. - shells[k].void_fraction) * area(shells[k]) * (upper - lower);
       }
-    const double expected = BedObservables(everybody, cylinder, MPI_COMM_SELF)
+    const double expected = BedObservables(everybody, Vessel(cylinder), MPI_COMM_SELF)
                               .solid_volume_between(lower, upper);
     std::cout << "solid in the shells " << solid << " m^3, in all " << expected << '\n';
     EXPECT_NEAR(solid, expected, 1e-9 * expected);
@@ -156,7 +156,9 @@ namespace
   profiles_at_rest(SmallColumn &column, const double height)
   {
     column.dem.synchronise();
-    return bed_profiles(column.dem, height, column.dem.parameters().particles.diameter);
+    BedObservables::Bed bed;
+    bed.top = bed.height = height;
+    return bed_profiles(column.dem, bed, column.dem.parameters().particles.diameter);
   }
 
   // Law: n spheres on top of each other at rest; through a plane goes the
@@ -270,7 +272,7 @@ namespace
     column.dem.advance(0.02);
     const auto bed = profiles_at_rest(
       column,
-      BedObservables(column.dem.particles(), column.dem.cylinder(), MPI_COMM_WORLD)
+      BedObservables(column.dem.particles(), column.dem.vessel_shape(), MPI_COMM_WORLD)
         .bed()
         .height);
 

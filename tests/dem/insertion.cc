@@ -242,9 +242,10 @@ namespace
           }
         for (unsigned int n = 0; n < 40; ++n)
           column.dem.advance(5e-3);
-        const auto bed =
-          BedObservables(column.dem.particles(), column.dem.cylinder(), MPI_COMM_WORLD)
-            .bed();
+        const auto bed = BedObservables(column.dem.particles(),
+                                        column.dem.vessel_shape(),
+                                        MPI_COMM_WORLD)
+                           .bed();
         void_fraction[k] = bed.mean_void_fraction;
         coordination[k]  = column.dem.coordination_number();
         time[k]          = phase.time();

@@ -8,6 +8,7 @@
 #include <graupel/dem/integration.h>
 #include <graupel/dem/particles/halo.h>
 #include <graupel/dem/particles/particle_store.h>
+#include <graupel/dem/vessel/vessel.h>
 
 namespace graupel
 {
@@ -219,6 +220,13 @@ namespace graupel
       return walls;
     }
 
+    /** The space that the walls leave to the particles, as of the last advance(). */
+    const Vessel &
+    vessel_shape() const
+    {
+      return shape;
+    }
+
     /** The longest substep in use [s]. */
     double
     substep() const
@@ -343,6 +351,7 @@ namespace graupel
     const double         skin;
     const double         near_skin;
     std::vector<Wall>    walls;
+    Vessel               shape;
     Materials            materials;
     dealii::Tensor<1, 3> gravity;
 

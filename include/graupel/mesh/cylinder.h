@@ -13,11 +13,7 @@ namespace graupel
     /** Height from the bottom (z = 0) to the top [m]. */
     double height = 0.169;
 
-    /** Mean area of the empty cross-section where a mesh from a file fills less than the
-     * circle; 0: the circle's [m^2]. Not a parameter. */
-    double section = 0.;
-
-    /** Area of the empty cross-section [m^2]. */
+    /** Area of the circle [m^2]. */
     double cross_section() const;
 
     void declare(dealii::ParameterHandler &prm);

@@ -2,6 +2,7 @@
 #define graupel_mesh_vessel_mesh_h
 
 #include <graupel/mesh/cylinder.h>
+#include <graupel/mesh/mesh_outline.h>
 
 #include <deal.II/distributed/tria.h>
 #include <deal.II/fe/mapping_q.h>
@@ -9,6 +10,7 @@
 
 #include <functional>
 #include <map>
+#include <memory>
 #include <string>
 
 namespace graupel
@@ -73,12 +75,26 @@ namespace graupel
       return quadratic;
     }
 
-    /** The particles' vessel, with the mean cross-section of the mesh. */
+    /** The particles' vessel, around the mesh. */
     const Cylinder &
     cylinder() const
     {
       return vessel;
     }
+
+    /** What a mesh from a file encloses; null for the cylinder itself. Of the vessel as
+     * such: the same after every adaption. */
+    const std::shared_ptr<const MeshOutline> &
+    outline() const
+    {
+      return contour;
+    }
+
+    /** Whether the mesh fills the cylinder, be it from a file or not. */
+    bool fills_cylinder() const;
+
+    /** Area of the mesh's section, mean over the height [m^2]. */
+    double mean_cross_section() const;
 
     MPI_Comm
     communicator() const
@@ -147,6 +163,7 @@ namespace graupel
     dealii::parallel::distributed::Triangulation<3> forest;
     dealii::MappingQ<3>                             quadratic;
     int                                             initial_level = 0;
+    std::shared_ptr<const MeshOutline>              contour;
   };
 } // namespace graupel
 

@@ -3,8 +3,25 @@
 
 #include <deal.II/base/numbers.h>
 
+#include <algorithm>
+#include <cmath>
+
 namespace graupel
 {
+  namespace
+  {
+    // Of a bed that has not been looked at.
+    constexpr double usual_solid_fraction = 0.6;
+    // A bed with more than this part of its solid below it stands on the floor.
+    constexpr double loose_part = 0.05;
+    // The densest packing of equal spheres; nothing random comes near.
+    constexpr double least_void_fraction = 0.26;
+    // Levels that a slab of one diameter spans.
+    constexpr unsigned int levels_of_slab = 8;
+    // Parts of the bed's solid fraction at which a level is none of it, and all of it.
+    constexpr double no_bed = 0.25, all_bed = 0.75;
+  } // namespace
+
   double
   sphere_volume_below(const double radius, const double height)
   {
@@ -12,11 +29,49 @@ namespace graupel
     return dealii::numbers::PI / 3. * h * h * (3. * radius - h);
   }
 
+  // The solid below levels a slab's eighth apart, from a slab below the floor on.
+  struct BedObservables::Profile
+  {
+    double              slab, first, step;
+    std::vector<double> below;
+
+    double
+    total() const
+    {
+      return below.back();
+    }
+
+    double
+    level(const std::size_t k) const
+    {
+      return first + k * step;
+    }
+
+    // Linear between the levels.
+    double
+    below_at(const double z) const
+    {
+      const double place = std::clamp((z - first) / step, 0., below.size() - 1.);
+      const auto   k     = std::min<std::size_t>(place, below.size() - 2);
+      return below[k] + (place - k) * (below[k + 1] - below[k]);
+    }
+
+    // Below which there is this part of the solid.
+    double
+    quantile(const double part) const
+    {
+      const double wanted = part * total();
+      const auto   k      = std::max<std::ptrdiff_t>(
+        1, std::lower_bound(below.begin(), below.end(), wanted) - below.begin());
+      return level(k - 1) + step * (wanted - below[k - 1]) / (below[k] - below[k - 1]);
+    }
+  };
+
   BedObservables::BedObservables(const ParticleArrays &particles,
-                                 const Cylinder       &cylinder,
+                                 const Vessel         &vessel,
                                  MPI_Comm              communicator)
     : particles(particles)
-    , cylinder(cylinder)
+    , vessel(vessel)
     , communicator(communicator)
   {
   }
@@ -33,15 +88,24 @@ namespace graupel
   std::vector<double>
   BedObservables::solid_volume_below(const std::vector<double> &planes) const
   {
-    const ExactSum        zero(sphere_volume(largest_radius()));
-    std::vector<ExactSum> sums(planes.size(), zero);
+    const ExactSum zero(sphere_volume(largest_radius()));
+    // Spheres that a plane cuts, and whole ones by the first plane above them.
+    std::vector<ExactSum> sums(planes.size(), zero), whole(planes.size() + 1, zero);
     for (unsigned int i = 0; i < particles.n_owned; ++i)
       {
         const double r      = particles.body[i].radius,
                      lowest = particles.body[i].position[2] - r;
-        for (std::size_t k = 0; k < planes.size(); ++k)
-          if (planes[k] > lowest)
-            sums[k].add(sphere_volume_below(r, planes[k] - lowest));
+        std::size_t k =
+          std::upper_bound(planes.begin(), planes.end(), lowest) - planes.begin();
+        for (; k < planes.size() && planes[k] - lowest < 2. * r; ++k)
+          sums[k].add(sphere_volume_below(r, planes[k] - lowest));
+        whole[k].add(sphere_volume_below(r, 2. * r));
+      }
+    ExactSum passed = zero;
+    for (std::size_t k = 0; k < planes.size(); ++k)
+      {
+        passed.add(whole[k]);
+        sums[k].add(passed);
       }
     return ExactSum::totals(sums, communicator);
   }
@@ -59,72 +123,220 @@ namespace graupel
     const auto          below = solid_volume_below(planes);
     std::vector<double> fractions;
     for (std::size_t k = 0; k + 1 < planes.size(); ++k)
-      fractions.push_back((below[k + 1] - below[k]) /
-                          (cylinder.cross_section() * (planes[k + 1] - planes[k])));
+      {
+        const double space = vessel.volume(planes[k], planes[k + 1]);
+        fractions.push_back(space > 0. ? (below[k + 1] - below[k]) / space : 0.);
+      }
     return fractions;
+  }
+
+  double
+  BedObservables::area_near(const double z) const
+  {
+    return vessel.cross_section(std::clamp(z, vessel.floor(), vessel.ceiling()));
   }
 
   double
   BedObservables::slab_fraction(const double middle, const double slab) const
   {
-    return solid_fractions({middle - slab / 2., middle + slab / 2.})[0];
+    const double lower = middle - slab / 2., upper = middle + slab / 2.;
+    return solid_volume_between(lower, upper) / (area_near(middle) * (upper - lower));
   }
 
   double
-  BedObservables::top_of_bed(const double start,
-                             const double threshold,
-                             const double slab,
-                             const double end) const
+  BedObservables::edge_of_bed(const double start,
+                              const double threshold,
+                              const double slab,
+                              const bool   upwards) const
   {
     // The slab's fraction is continuous in its place, so bisection finds where
     // it falls through the threshold once a step has bracketed that.
-    const double step    = slab / 8.;
-    const auto   n_steps = static_cast<unsigned int>((end + slab - start) / step) + 2;
+    constexpr unsigned int across = levels_of_slab;
+    const double           step   = slab / across;
+    const double way     = upwards ? vessel.ceiling() - start : start - vessel.floor();
+    const auto   n_steps = static_cast<unsigned int>(std::max(0., way + slab) / step) + 2;
+    const unsigned int n_planes = n_steps + across;
+    const double       first =
+      upwards ? start - slab / 2. : start + slab / 2. - (n_planes - 1) * step;
     std::vector<double> planes;
-    for (unsigned int k = 0; k < n_steps + 8; ++k)
-      planes.push_back(start - slab / 2. + k * step);
+    for (unsigned int k = 0; k < n_planes; ++k)
+      planes.push_back(first + k * step);
     const auto below = solid_volume_below(planes);
-
-    const double least = threshold * cylinder.cross_section() * slab;
-    unsigned int k     = 0;
-    while (k + 1 < n_steps && below[k + 8] - below[k] >= least)
+    const auto place = [&](const unsigned int k) {
+      return upwards ? start + k * step : start - k * step;
+    };
+    const auto is_bed = [&](const unsigned int k) {
+      const unsigned int lower = upwards ? k : n_planes - 1 - across - k;
+      return below[lower + across] - below[lower] >=
+             threshold * area_near(place(k)) * slab;
+    };
+    unsigned int k = 0;
+    while (k + 1 < n_steps && is_bed(k))
       ++k;
     if (k == 0)
       return start;
 
-    double low = start + (k - 1) * step, high = start + k * step;
-    while (high - low > 1e-7 * slab)
+    double bed = place(k - 1), beyond = place(k);
+    while (std::abs(beyond - bed) > 1e-7 * slab)
       {
-        const double middle                                     = 0.5 * (low + high);
-        (slab_fraction(middle, slab) >= threshold ? low : high) = middle;
+        const double middle                                       = 0.5 * (bed + beyond);
+        (slab_fraction(middle, slab) >= threshold ? bed : beyond) = middle;
       }
-    return 0.5 * (low + high);
+    return 0.5 * (bed + beyond);
+  }
+
+  BedObservables::Profile
+  BedObservables::profile(const double slab) const
+  {
+    Profile    result{slab, vessel.floor() - slab, slab / levels_of_slab, {}};
+    const auto n = 2 + static_cast<unsigned int>(
+                         (vessel.ceiling() + slab - result.first) / result.step);
+    std::vector<double> planes;
+    for (unsigned int k = 0; k < n; ++k)
+      planes.push_back(result.level(k));
+    result.below       = solid_volume_below(planes);
+    const double under = result.below.front();
+    for (double &volume : result.below)
+      volume -= under;
+    return result;
+  }
+
+  // False if the middle half is empty.
+  bool
+  BedObservables::measure_middle(Bed &bed) const
+  {
+    const double h = bed.top - bed.bottom;
+    bed.bulk_solid_fraction =
+      solid_fractions({bed.bottom + 0.25 * h, bed.bottom + 0.75 * h})[0];
+    return bed.bulk_solid_fraction > 0.;
+  }
+
+  BedObservables::Bed
+  BedObservables::standing_bed(const Profile &solid) const
+  {
+    // Start where all the solid would reach as a bed of usual density.
+    Bed bed;
+    bed.bottom = vessel.floor();
+    bed.height = vessel.depth_of(solid.total(), usual_solid_fraction);
+    for (unsigned int iteration = 0; iteration < 20; ++iteration)
+      {
+        const double h = bed.height;
+        bed.top        = bed.bottom + h;
+        if (!measure_middle(bed))
+          return Bed();
+        bed.top = edge_of_bed(
+          bed.bottom + 0.5 * h, 0.5 * bed.bulk_solid_fraction, solid.slab, true);
+        bed.height = bed.top - bed.bottom;
+        if (std::abs(bed.height - h) < 1e-6 * solid.slab)
+          break;
+      }
+    return bed;
+  }
+
+  // Whether there is next to nothing below the middle of the solid, once the solid
+  // fraction has fallen to half.
+  bool
+  BedObservables::hangs(const Profile &solid) const
+  {
+    constexpr unsigned int half  = levels_of_slab / 2;
+    const double           lower = solid.quantile(0.25), upper = solid.quantile(0.75);
+    const double           space = vessel.volume(lower, upper);
+    if (!(space > 0.))
+      return false;
+    const double threshold = 0.5 * 0.5 * solid.total() / space;
+    const auto   middle =
+      static_cast<std::size_t>((solid.quantile(0.5) - solid.first) / solid.step);
+    for (std::size_t k = middle; k >= levels_of_slab + half; --k)
+      if (k + half < solid.below.size() &&
+          solid.below[k + half] - solid.below[k - half] <
+            threshold * area_near(solid.level(k)) * solid.slab)
+        return solid.below[k] < loose_part * solid.total();
+    return false;
+  }
+
+  BedObservables::Bed
+  BedObservables::hanging_bed(const Profile &solid) const
+  {
+    const double middle = solid.quantile(0.5);
+    Bed          bed;
+    bed.bottom = solid.quantile(0.25);
+    bed.top    = solid.quantile(0.75);
+    // Twice as high as the middle half.
+    const double margin = 0.5 * (bed.top - bed.bottom);
+    bed.bottom -= margin;
+    bed.top += margin;
+    for (unsigned int iteration = 0; iteration < 20; ++iteration)
+      {
+        const double before = bed.top - bed.bottom;
+        if (!measure_middle(bed))
+          return Bed();
+        const double threshold = 0.5 * bed.bulk_solid_fraction;
+        bed.bottom             = edge_of_bed(middle, threshold, solid.slab, false);
+        bed.top                = edge_of_bed(middle, threshold, solid.slab, true);
+        if (std::abs(bed.top - bed.bottom - before) < 1e-6 * solid.slab)
+          break;
+      }
+    if (bed.top > vessel.ceiling() - 0.5 * solid.slab)
+      bed.top = vessel.ceiling();
+    return bed;
+  }
+
+  double
+  BedObservables::expanded_height(const Profile &solid) const
+  {
+    const double        floor = vessel.floor(), ceiling = vessel.ceiling();
+    std::vector<double> levels;
+    for (unsigned int k = 0; floor + k * solid.step < ceiling; ++k)
+      levels.push_back(floor + k * solid.step);
+    levels.push_back(ceiling);
+
+    // Of the slabs around the levels, as far as they lie in the vessel.
+    std::vector<double> fractions;
+    double              weighted = 0., weight = 0.;
+    for (const double z : levels)
+      {
+        const double lower = z - 0.5 * solid.slab, upper = z + 0.5 * solid.slab;
+        const double space  = vessel.volume(lower, upper);
+        const double volume = solid.below_at(upper) - solid.below_at(lower);
+        fractions.push_back(space > 0. ? volume / space : 0.);
+        weighted += volume * fractions.back();
+        weight += volume;
+      }
+    if (!(weighted > 0.))
+      return 0.;
+
+    const auto part_of_bed = [&](const std::size_t k) {
+      const double relative = fractions[k] * weight / weighted;
+      const double below    = solid.below_at(levels[k]) / solid.total();
+      return std::max(std::clamp((relative - no_bed) / (all_bed - no_bed), 0., 1.),
+                      2. * std::min(below, 1. - below));
+    };
+    double height = 0.;
+    for (std::size_t k = 0; k + 1 < levels.size(); ++k)
+      height += 0.5 * (levels[k + 1] - levels[k]) * (part_of_bed(k) + part_of_bed(k + 1));
+    return height;
   }
 
   BedObservables::Bed
   BedObservables::bed() const
   {
-    Bed          bed;
-    const double slab  = 2. * largest_radius();
-    const double total = solid_volume_between(-slab, cylinder.height + slab);
-    if (!(total > 0.))
-      return bed;
-
-    // Start where all the solid would reach as a bed of usual density.
-    const double area = cylinder.cross_section();
-    bed.height        = total / (0.6 * area);
-    for (unsigned int iteration = 0; iteration < 20; ++iteration)
-      {
-        const double h          = bed.height;
-        bed.bulk_solid_fraction = solid_fractions({0.25 * h, 0.75 * h})[0];
-        if (!(bed.bulk_solid_fraction > 0.))
-          return Bed();
-        bed.height =
-          top_of_bed(0.5 * h, 0.5 * bed.bulk_solid_fraction, slab, cylinder.height);
-        if (std::abs(bed.height - h) < 1e-6 * slab)
-          break;
-      }
-    bed.mean_void_fraction = 1. - total / (area * bed.height);
+    const double slab = 2. * largest_radius();
+    if (!(slab > 0.) || !(vessel.volume(vessel.floor(), vessel.ceiling()) > 0.))
+      return Bed();
+    const Profile solid = profile(slab);
+    if (!(solid.total() > 0.))
+      return Bed();
+    Bed bed            = hangs(solid) ? hanging_bed(solid) : standing_bed(solid);
+    bed.height         = bed.top - bed.bottom;
+    const double space = vessel.volume(bed.bottom, bed.top);
+    if (!(bed.height >= slab && space > 0.))
+      return Bed();
+    bed.mean_void_fraction =
+      1. - solid_volume_between(bed.bottom - slab, bed.top + slab) / space;
+    bed.exists = bed.mean_void_fraction >= least_void_fraction;
+    if (!bed.exists)
+      return Bed();
+    bed.expanded_height = expanded_height(solid);
     return bed;
   }
 } // namespace graupel

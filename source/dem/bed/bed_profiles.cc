@@ -25,13 +25,13 @@ namespace graupel
       return std::upper_bound(planes.begin(), planes.end(), z) - planes.begin();
     }
 
-    // Planes from 0 in steps until one is at or above the end.
+    // Planes from a start in steps until one is at or above the height over it.
     std::vector<double>
-    planes_every(const double step, const double end)
+    planes_every(const double step, const double start, const double height)
     {
-      std::vector<double> planes{0.};
-      while (planes.back() < end * (1. - 1e-12))
-        planes.push_back(planes.size() * step);
+      std::vector<double> planes{start};
+      while (planes.back() - start < height * (1. - 1e-12))
+        planes.push_back(start + planes.size() * step);
       return planes;
     }
   } // namespace
@@ -122,6 +122,7 @@ namespace graupel
 
   std::vector<LoadLevel>
   load_profile(const ParticleArrays            &particles,
+               const Vessel                    &vessel,
                const std::vector<ContactState> &contacts,
                const std::vector<double>       &planes,
                const double                     gravity,
@@ -144,7 +145,7 @@ namespace graupel
       {
         const double first      = contact.first_center[2];
         const bool   with_wall  = contact.second < 0;
-        const bool   on_bottom  = contact.second == wall_id(bottom_wall);
+        const bool   on_bottom  = with_wall && vessel.is_floor(wall_of(contact.second));
         const double second     = on_bottom ? -infinity : contact.second_center[2];
         const double on_upper_z = first > second ? contact.force[2] : -contact.force[2];
         if (with_wall && !on_bottom)
@@ -225,10 +226,11 @@ namespace graupel
   }
 
   BedProfiles
-  bed_profiles(const Dem &dem, const double height, const double diameter)
+  bed_profiles(const Dem &dem, const BedObservables::Bed &of_bed, const double diameter)
   {
-    const auto &particles = dem.particles();
-    const auto  comm      = dem.communicator();
+    const auto   &particles = dem.particles();
+    const Vessel &vessel    = dem.vessel_shape();
+    const auto    comm      = dem.communicator();
     // One sweep for both: counts need the contacts with ghosts, loads must not.
     const auto contacts = dem.contact_states(true);
     auto       own      = contacts;
@@ -240,25 +242,35 @@ namespace graupel
       own.end());
     const auto counts = count_contacts(particles, contacts);
 
-    BedProfiles bed;
+    const double bottom = of_bed.bottom, height = of_bed.height;
+    BedProfiles  bed;
     bed.diameter = diameter;
-    bed.cylinder = dem.cylinder();
-    bed.height   = height;
+    bed.cylinder = vessel.cylinder();
+    if (vessel.is_straight())
+      bed.section = vessel.cross_section(vessel.floor());
+    bed.hydraulic_diameter = vessel.hydraulic_diameter();
+    bed.bottom             = bottom;
+    bed.height             = height;
 
-    const auto slabs = planes_every(diameter / 4., height + diameter);
-    const auto solid =
-      BedObservables(particles, dem.cylinder(), comm).solid_fractions(slabs);
+    const auto slabs = planes_every(diameter / 4., bottom, height + diameter);
+    const auto solid = BedObservables(particles, vessel, comm).solid_fractions(slabs);
     for (std::size_t k = 0; k < solid.size(); ++k)
       bed.axial.emplace_back(0.5 * (slabs[k] + slabs[k + 1]), 1. - solid[k]);
-    bed.radial = shell_void_fractions(
-      particles, dem.cylinder(), diameter / 20., 0.25 * height, 0.75 * height, comm);
+    if (vessel.is_tube())
+      bed.radial = shell_void_fractions(particles,
+                                        vessel.cylinder(),
+                                        diameter / 20.,
+                                        bottom + 0.25 * height,
+                                        bottom + 0.75 * height,
+                                        comm);
     bed.loads        = load_profile(particles,
+                             vessel,
                              own,
-                             planes_every(diameter / 2., height),
+                             planes_every(diameter / 2., bottom, height),
                              -dem.parameters().gravity()[2],
                              comm);
     bed.coordination = coordination_profile(
-      particles, counts, planes_every(diameter, height + diameter), comm);
+      particles, counts, planes_every(diameter, bottom, height + diameter), comm);
     bed.histogram            = coordination_histogram(counts, false, comm);
     bed.histogram_with_walls = coordination_histogram(counts, true, comm);
     return bed;

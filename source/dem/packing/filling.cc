@@ -74,12 +74,12 @@ namespace graupel
   Filling::expected_height() const
   {
     const BedObservables::Bed bed =
-      BedObservables(dem.particles(), dem.cylinder(), dem.communicator()).bed();
+      BedObservables(dem.particles(), dem.vessel_shape(), dem.communicator()).bed();
     // A heap of a few layers has no bulk yet, and rain is none.
     const bool   is_bed = bed.height > 12. * radius && bed.bulk_solid_fraction > 0.5;
     const double bulk =
       is_bed ? bed.bulk_solid_fraction : loose_packing::usual_solid_fraction;
-    return dem.solid_volume() / (dem.cylinder().cross_section() * bulk);
+    return dem.vessel_shape().depth_of(dem.solid_volume(), bulk);
   }
 
   unsigned long
@@ -105,8 +105,9 @@ namespace graupel
       return static_cast<unsigned int>(
         std::max(0., std::round((input.mass - mass_put_in()) / mean_mass)));
 
-    const double missing_volume = (input.bed_height - expected_height()) *
-                                  dem.cylinder().cross_section() *
+    const Vessel &vessel         = dem.vessel_shape();
+    const double  missing_volume = vessel.volume(vessel.floor() + expected_height(),
+                                                vessel.floor() + input.bed_height) *
                                   loose_packing::usual_solid_fraction;
     return static_cast<unsigned int>(
       std::max(0., missing_volume * dem.mean_density() / mean_mass));
@@ -123,9 +124,9 @@ namespace graupel
       return std::min(1., mass_put_in() / input.mass);
     if (input.bed_height > 0.)
       return std::min(1.,
-                      dem.solid_volume() /
-                        (dem.cylinder().cross_section() *
-                         loose_packing::usual_solid_fraction * input.bed_height));
+                      dem.vessel_shape().depth_of(dem.solid_volume(),
+                                                  loose_packing::usual_solid_fraction) /
+                        input.bed_height);
     return 0.;
   }
 
@@ -147,7 +148,7 @@ namespace graupel
     request.number  = at_most;
     request.n_tries = loose_packing::most_tries;
     request.solid_volume =
-      solid_fraction * dem.cylinder().cross_section() * section.height();
+      solid_fraction * dem.vessel_shape().volume(section.lower, section.upper);
     request.velocity = [this](const double) {
       return dealii::Tensor<1, 3>({0., 0., -input.drop_speed});
     };
@@ -227,7 +228,8 @@ namespace graupel
     const double d     = 2. * radius;
     const double upper = dem.cylinder().height;
     const double lower =
-      dem.n_global() == 0 ? 0. : expected_height() + batch_clearance * d;
+      dem.vessel_shape().floor() +
+      (dem.n_global() == 0 ? 0. : expected_height() + batch_clearance * d);
     if (upper - lower < least_batch * d)
       return drop_layer(at_most);
     auto batch     = request({lower, upper}, at_most, loose_packing::solid_fraction);

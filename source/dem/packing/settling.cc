@@ -79,7 +79,7 @@ namespace graupel
   Settling::Settling(const SettlingParameters &parameters, Dem &dem)
     : input(parameters)
     , dem(dem)
-    , observables(dem.particles(), dem.cylinder(), dem.communicator())
+    , observables(dem.particles(), dem.vessel_shape(), dem.communicator())
   {
     at.amplitude = first_amplitude;
     dem.use_packing_materials(true);

@@ -179,6 +179,10 @@ namespace graupel
       "STL files of further walls, separated by commas; each with a name and a colon in "
       "front, as in \"drum: drum.stl\", or named as the file.",
       dealii::Patterns::List(dealii::Patterns::FileName()));
+    prm.add_parameter("from mesh",
+                      from_mesh,
+                      "Whether the flat boundaries of Mesh/file are planes for particles "
+                      "too, with the names of the boundaries.");
     prm.add_parameter("surface unit",
                       surface_unit,
                       "Length of the unit of the STL files, which name none [m].");

@@ -27,15 +27,39 @@ namespace graupel
     // The mu K of Janssen's theory that the wall's load as a whole asks for: shear
     // over vertical stress, each integrated over the height of the bed.
     double
-    mobilised_friction(const BedProfiles &bed)
+    mobilised_friction(const BedProfiles &bed, const double hydraulic_diameter)
     {
       double integral = 0.; // of the load over the height, trapezoidal [N m]
       for (std::size_t k = 0; k + 1 < bed.loads.size(); ++k)
         integral += 0.5 * (bed.loads[k].load + bed.loads[k + 1].load) *
                     (bed.loads[k + 1].height - bed.loads[k].height);
-      return integral > 0.
-               ? bed.loads[0].wall_load * bed.cylinder.diameter / (4. * integral)
-               : 0.;
+      return integral > 0. ? bed.loads[0].wall_load * hydraulic_diameter / (4. * integral)
+                           : 0.;
+    }
+
+    // Stresses, and what Janssen's theory says of them, where the section is the same at
+    // all heights; empty where it is not.
+    void
+    write_janssen(const BedProfiles &bed, std::ostream &file)
+    {
+      file << "z,weight,load,wall_load,stress,janssen_stress,mobilised_friction\n";
+      for (const LoadLevel &level : bed.loads)
+        {
+          file << level.height << ',' << level.weight << ',' << level.load << ','
+               << level.wall_load << ',';
+          if (bed.section && bed.hydraulic_diameter)
+            {
+              const double friction = mobilised_friction(bed, *bed.hydraulic_diameter);
+              file << level.load / *bed.section << ','
+                   << janssen_stress(bed.loads[0].weight / (*bed.section * bed.height),
+                                     *bed.hydraulic_diameter,
+                                     friction,
+                                     std::max(0., bed.bottom + bed.height - level.height))
+                   << ',' << friction << '\n';
+            }
+          else
+            file << ",,\n";
+        }
     }
   } // namespace
 
@@ -57,18 +81,8 @@ namespace graupel
       radial << shell.middle() << ',' << shell.void_fraction << ','
              << de_klerk_void_fraction(shell.middle() / bed.diameter, bulk) << '\n';
 
-    auto         janssen  = open("bed-janssen.csv");
-    const double area     = bed.cylinder.cross_section();
-    const double friction = mobilised_friction(bed);
-    janssen << "z,weight,load,wall_load,stress,janssen_stress,mobilised_friction\n";
-    for (const LoadLevel &level : bed.loads)
-      janssen << level.height << ',' << level.weight << ',' << level.load << ','
-              << level.wall_load << ',' << level.load / area << ','
-              << janssen_stress(bed.loads[0].weight / (area * bed.height),
-                                bed.cylinder.diameter,
-                                friction,
-                                std::max(0., bed.height - level.height))
-              << ',' << friction << '\n';
+    auto janssen = open("bed-janssen.csv");
+    write_janssen(bed, janssen);
 
     auto coordination = open("bed-coordination.csv");
     coordination << "z,particles,coordination_number,wall_contacts\n";

@@ -27,7 +27,7 @@ namespace graupel
       10l,
       std::lround(state.parameters.cylinder.height / state.parameters.mesh.cell_size)));
     axial              = axial_profile(fields(), n_slabs);
-    if (end.bed().exists())
+    if (end.bed().exists)
       look_at_middle();
   }
 
@@ -49,7 +49,7 @@ namespace graupel
     const double lower = low + 0.25 * (high - low), upper = low + 0.75 * (high - low);
     radial = radial_profile(fields(), state.parameters.output.annuli, lower, upper);
     middle_void_fraction = 1. - state.observables.solid_volume_between(lower, upper) /
-                                  state.dem.space().volume(lower, upper);
+                                  state.dem.vessel_shape().volume(lower, upper);
     // The slabs must tell the two heights apart.
     if (axial.size() >= 2 && upper - lower > axial[1].height - axial[0].height)
       middle_gradient =
@@ -67,11 +67,11 @@ namespace graupel
   CaseView::whole_bed() const
   {
     const auto &bed = end.bed();
-    if (bed.exists() &&
-        bed.bottom - end.state.dem.space().floor() > most_gap * bed.height())
+    if (bed.exists &&
+        bed.bottom - end.state.dem.vessel_shape().floor() > most_gap * bed.height)
       return {};
-    if (bed.exists())
-      return WholeBed{bed.bottom, bed.height(), bed.mean_void_fraction};
+    if (bed.exists)
+      return WholeBed{bed.bottom, bed.height, bed.mean_void_fraction};
     const BedResult &rest = end.state.rest;
     if (rest.height && end.state.dem.n_global() == rest.particle_count)
       return WholeBed{*rest.bottom, *rest.height, *rest.mean_void_fraction};
@@ -195,7 +195,7 @@ namespace graupel
     {
       const auto &bed  = flow.end.bed();
       const auto &rest = flow.end.state.rest;
-      if (!bed.exists() || !rest.height)
+      if (!bed.exists || !rest.height)
         return {};
       return bed.top - (*rest.bottom + *rest.height);
     }

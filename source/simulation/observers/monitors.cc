@@ -32,7 +32,7 @@ namespace graupel
   {
     const double height = state.parameters.cylinder.height;
     // A hair below the top, so that what leaves there is no part of it.
-    return bed().exists() ? std::min(bed().top, height * (1. - 1e-9)) : 0.5 * height;
+    return bed().exists ? std::min(bed().top, height * (1. - 1e-9)) : 0.5 * height;
   }
 
   namespace
@@ -60,25 +60,25 @@ namespace graupel
     Value
     bed_height(const Moment &now)
     {
-      return now.bed().exists() ? Value(now.bed().height()) : Value();
+      return now.bed().exists ? Value(now.bed().height) : Value();
     }
 
     Value
     bed_bottom(const Moment &now)
     {
-      return now.bed().exists() ? Value(now.bed().bottom) : Value();
+      return now.bed().exists ? Value(now.bed().bottom) : Value();
     }
 
     Value
     expanded_height(const Moment &now)
     {
-      return now.bed().exists() ? Value(now.bed().expanded_height) : Value();
+      return now.bed().exists ? Value(now.bed().expanded_height) : Value();
     }
 
     Value
     mean_void_fraction(const Moment &now)
     {
-      return now.bed().exists() ? Value(now.bed().mean_void_fraction) : Value();
+      return now.bed().exists ? Value(now.bed().mean_void_fraction) : Value();
     }
 
     Value

@@ -3,6 +3,8 @@
 #include <deal.II/fe/fe_values.h>
 #include <deal.II/numerics/vector_tools_evaluate.h>
 
+#include <limits>
+
 namespace graupel
 {
   namespace
@@ -74,6 +76,8 @@ namespace graupel
                  const double       from,
                  const double       to)
   {
+    if (!fields.nodes.mesh.fills_cylinder())
+      return {};
     const double radius = fields.nodes.mesh.cylinder().diameter / 2.;
     return means_by_region(fields, n_annuli, [&](const double r, const double z) {
       return z < from || z > to ? n_annuli
@@ -123,7 +127,8 @@ namespace graupel
 
     std::vector<PlanePoint> plane;
     for (unsigned int n = 0; n < points.size(); ++n)
-      plane.push_back({points[n][0], points[n][2], alpha[n], flux[n], pressure[n]});
+      if (places.point_found(n))
+        plane.push_back({points[n][0], points[n][2], alpha[n], flux[n], pressure[n]});
     return plane;
   }
 
@@ -134,6 +139,8 @@ namespace graupel
                              const double                   superficial_velocity,
                              const double                   mean_void_fraction)
   {
+    if (radial.empty())
+      return std::numeric_limits<double>::quiet_NaN();
     std::vector<Channel> channels;
     for (const RegionMean &annulus : radial)
       channels.push_back({annulus.volume, annulus.void_fraction});

@@ -37,7 +37,7 @@ namespace graupel
     const auto         bed = state.bed();
     std::ostringstream text;
     text << std::setprecision(4) << bed_name << state.dem.n_global()
-         << " particles, height " << bed.height() * 1e3 << " mm, mean void fraction "
+         << " particles, height " << bed.height * 1e3 << " mm, mean void fraction "
          << bed.mean_void_fraction << ", in the middle half "
          << 1. - bed.bulk_solid_fraction;
     progress.say(text.str());
@@ -52,7 +52,7 @@ namespace graupel
                        MPI_Comm                   communicator)
   {
     const auto &choice = parameters.original_bed;
-    if (choice.void_fraction == "simulated" || !bed.exists())
+    if (choice.void_fraction == "simulated" || !bed.exists)
       return 1.;
     double ratio;
     if (const auto given = choice.number())

@@ -196,7 +196,7 @@ namespace graupel
   {
     // That of the discrete cylinder, so that what enters through it has its velocity.
     return parameters.mesh.file.empty() ? solver->boundary_area(VesselMesh::bottom)
-                                        : dem.space().fluid_cross_section(z);
+                                        : dem.vessel_shape().fluid_cross_section(z);
   }
 
   double

@@ -24,7 +24,7 @@ namespace graupel
     , name(name)
     , mesh(parameters.cylinder, parameters.mesh, communicator)
     , dem(parameters.dem, mesh, costs)
-    , observables(dem.particles(), dem.cylinder(), communicator)
+    , observables(dem.particles(), dem.vessel_shape(), communicator)
   {
     // What the mesh's own boundaries cannot have is said before the bed is made.
     if (parameters.sweep.has_fluid())

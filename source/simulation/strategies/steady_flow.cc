@@ -92,7 +92,7 @@ namespace graupel
     const SweepParameters &sweep = state.parameters.sweep;
     const auto             top   = [&]() {
       const auto bed = state.bed();
-      return bed.exists() ? bed.top : 0.;
+      return bed.exists ? bed.top : 0.;
     };
     const double height = top();
     const auto   change = [&]() { return height > 0. ? top() / height - 1. : 0.; };

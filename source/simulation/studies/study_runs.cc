@@ -67,7 +67,8 @@ namespace graupel
 
     LevelResult result;
     result.cells     = mesh.triangulation().n_global_active_cells();
-    result.cell_size = representative_size(mesh.volume(), result.cells);
+    result.cell_size = representative_size(
+      mesh.mean_cross_section() * parameters.cylinder.height, result.cells);
     result.time_step =
       parameters.manufactured.duration > 0. ? parameters.sweep.time_step : 0.;
     result.measurements = {{"error of the flux [-]", errors.flux, true},

@@ -42,7 +42,7 @@ namespace
     bed.dem.advance(0.3);
     bed.dem.advance(0.1);
     const auto observed =
-      BedObservables(bed.dem.particles(), bed.dem.cylinder(), bed.dem.communicator())
+      BedObservables(bed.dem.particles(), bed.dem.vessel_shape(), bed.dem.communicator())
         .bed();
     const double weight = bed.dem.weight();
     expect_near("bottom and wall force over weight",

@@ -66,7 +66,7 @@ namespace
     p.particles.diameter = diameter;
     const RainedBed bed(p, tube(0.19), count);
     const auto      observed =
-      BedObservables(bed.dem.particles(), bed.dem.cylinder(), bed.dem.communicator())
+      BedObservables(bed.dem.particles(), bed.dem.vessel_shape(), bed.dem.communicator())
         .bed();
     const double D = bed.dem.cylinder().diameter, ratio = D / diameter;
     title("D/d = " + std::to_string(ratio) + ", " + std::to_string(count) +

@@ -2,7 +2,7 @@
 #define graupel_dem_bed_bed_observables_h
 
 #include <graupel/dem/particles/particle_arrays.h>
-#include <graupel/mesh/cylinder.h>
+#include <graupel/dem/vessel/vessel.h>
 
 #include <vector>
 
@@ -19,14 +19,15 @@ namespace graupel
   class BedObservables
   {
   public:
-    /** Both must outlive this object. The particles may move and change. */
+    /** Both must outlive this object. The particles may move and change, and the vessel
+     * may follow its walls. */
     BedObservables(const ParticleArrays &particles,
-                   const Cylinder       &cylinder,
+                   const Vessel         &vessel,
                    MPI_Comm              communicator);
 
     /**
-     * Volume of solid below each of the planes z = @p planes [m^3], spheres cut
-     * exactly. Collective.
+     * Volume of solid below each of the ascending planes z = @p planes [m^3], spheres
+     * cut exactly. Collective.
      */
     std::vector<double> solid_volume_below(const std::vector<double> &planes) const;
 
@@ -34,23 +35,45 @@ namespace graupel
     double solid_volume_between(const double lower, const double upper) const;
 
     /**
-     * Section-averaged solid fraction [-] of each slab between neighbouring
-     * planes; one value less than planes. Collective.
+     * Solid fraction [-] of the vessel between neighbouring ones of the ascending
+     * @p planes; one value less than planes, 0 where the vessel has no space. Collective.
      */
     std::vector<double> solid_fractions(const std::vector<double> &planes) const;
 
     struct Bed
     {
       /**
-       * Where the solid fraction, averaged over a slab of one particle
-       * diameter, falls to half of its bulk value [m]; 0 without a bed.
+       * Whether the particles make a bed: at least one diameter high, and not denser
+       * than spheres can be. If not, nothing else has a meaning.
        */
+      bool exists = false;
+      /** The vessel's floor; where less than 5 % of the solid is below, as of the top:
+       * of a bed under a lid, or a slug in the air [m]. */
+      double bottom = 0.;
+      /**
+       * Where the solid fraction, averaged over a slab of one particle
+       * diameter, falls to half of its bulk value; the ceiling for a bed that hangs
+       * there [m].
+       */
+      double top = 0.;
+      /** From bottom to top [m]; 0 without a bed. */
       double height = 0.;
+      /**
+       * A height without jumps: over all levels of the vessel, the integral of how far
+       * there is bed [m]. There is where the slab around a level has a solid fraction
+       * above three quarters of the mean over the solid, none below one quarter, and
+       * part of it between; and a gap counts by twice the part of the solid that lies
+       * beyond it, above or below, whichever is less. So a slug that rises adds twice its
+       * part of the solid times its way, as it does to twice the mean height, and a
+       * bubble that passes changes nothing. As the height to 0.1 diameters for a bed at
+       * rest.
+       */
+      double expanded_height = 0.;
       /** Solid fraction over the middle half of the bed [-]. */
       double bulk_solid_fraction = 0.;
       /**
-       * 1 - solid volume / (cross-section * height) [-]; 1 without a bed. Of
-       * all solid, so it means nothing while particles still rain.
+       * 1 - volume of the solid over that of the vessel from bottom to top [-]; 1 without
+       * a bed. Solid that is farther than a diameter from the bed does not count.
        */
       double mean_void_fraction = 1.;
     };
@@ -63,15 +86,26 @@ namespace graupel
     Bed bed() const;
 
   private:
-    double top_of_bed(const double start,
-                      const double threshold,
-                      const double slab,
-                      const double end) const;
+    struct Profile;
+
+    double  largest_radius() const;
+    double  area_near(const double z) const;
+    Profile profile(const double slab) const;
+    Bed     standing_bed(const Profile &solid) const;
+    bool    hangs(const Profile &solid) const;
+    Bed     hanging_bed(const Profile &solid) const;
+    bool    measure_middle(Bed &bed) const;
+    double  expanded_height(const Profile &solid) const;
+    // Where, from start on upwards or downwards, the slab's fraction falls below the
+    // threshold.
+    double edge_of_bed(const double start,
+                       const double threshold,
+                       const double slab,
+                       const bool   upwards) const;
     double slab_fraction(const double middle, const double slab) const;
-    double largest_radius() const;
 
     const ParticleArrays &particles;
-    const Cylinder       &cylinder;
+    const Vessel         &vessel;
     MPI_Comm              communicator;
   };
 } // namespace graupel

@@ -1,6 +1,7 @@
 #ifndef graupel_dem_bed_bed_profiles_h
 #define graupel_dem_bed_bed_profiles_h
 
+#include <graupel/dem/bed/bed_observables.h>
 #include <graupel/dem/dem.h>
 
 #include <unordered_map>
@@ -59,7 +60,7 @@ namespace graupel
     /** Height of the plane [m]. */
     double height;
     /** Vertical force that the particles with centers above the plane press on
-     * those below it, and on the bottom [N]. */
+     * those below it, and on the vessel's floor [N]. */
     double load = 0.;
     /** Vertical force by which other walls hold the particles above it [N]. */
     double wall_load = 0.;
@@ -71,9 +72,11 @@ namespace graupel
    * The load at each of the ascending @p planes [m]. Particles count by their
    * centers, so that at rest weight = load + wall load, for any plane and
    * whatever the packing. @p contacts are those whose first particle is own;
-   * @p gravity along -z [m/s^2]. Collective; the same on any number of ranks.
+   * @p gravity along -z [m/s^2]. Level planes below @p vessel are its floor. Collective;
+   * the same on any number of ranks.
    */
   std::vector<LoadLevel> load_profile(const ParticleArrays            &particles,
+                                      const Vessel                    &vessel,
                                       const std::vector<ContactState> &contacts,
                                       const std::vector<double>       &planes,
                                       const double                     gravity,
@@ -111,13 +114,18 @@ namespace graupel
   {
     /** Particle diameter in which the resolution is measured [m]. */
     double diameter;
-    /** Of the vessel. */
+    /** The cylinder around the vessel. */
     Cylinder cylinder;
-    /** Of the bed [m]. */
-    double height;
+    /** Area of the vessel's section, if it is the same at all heights [m^2]. */
+    std::optional<double> section;
+    /** Four times the section's area over its perimeter, if there is one [m]. */
+    std::optional<double> hydraulic_diameter;
+    /** Of the bed, from its bottom [m]. */
+    double bottom, height;
     /** Slabs of a quarter of a diameter: middle [m] and void fraction [-]. */
     std::vector<std::pair<double, double>> axial;
-    /** Shells of a twentieth of a diameter, over the middle half of the bed. */
+    /** Shells of a twentieth of a diameter, over the middle half of the bed; none unless
+     * the vessel is the whole cylinder. */
     std::vector<RadialShell> radial;
     /** Every half diameter. */
     std::vector<LoadLevel> loads;
@@ -128,10 +136,12 @@ namespace graupel
   };
 
   /**
-   * Of the bed of @p height [m] in @p dem, which must have been synchronised; the
+   * Of @p bed in @p dem, which must have been synchronised, from its bottom on; the
    * resolution is by @p diameter [m]. Collective.
    */
-  BedProfiles bed_profiles(const Dem &dem, const double height, const double diameter);
+  BedProfiles bed_profiles(const Dem                 &dem,
+                           const BedObservables::Bed &bed,
+                           const double               diameter);
 } // namespace graupel
 
 #endif

@@ -33,6 +33,13 @@ namespace graupel
       quanta += static_cast<std::int64_t>(term * inverse);
     }
 
+    /** Adds the terms of a sum with the same largest term. */
+    void
+    add(const ExactSum &other)
+    {
+      quanta += other.quanta;
+    }
+
     /** The sum over all ranks of @p communicator. Collective. */
     double
     total(MPI_Comm communicator) const

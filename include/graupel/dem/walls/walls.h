@@ -197,6 +197,8 @@ namespace graupel
     /** STL files with their names, and the length of their unit [m]. */
     std::string surfaces;
     double      surface_unit = 1e-3;
+    /** Whether the flat boundaries of the mesh's file are planes too. */
+    bool from_mesh = false;
     /** Names of the surfaces in which the particles are. */
     std::string containers;
     /** "NAME = velocity A; B; C | NAME = rotation X Y Z; AX AY AZ; OMEGA". */

@@ -40,7 +40,8 @@ namespace graupel
   /**
    * Means over @p n_annuli annuli of equal width, from the axis to the wall,
    * between the heights @p from and @p to [m]. Annuli that hold no quadrature
-   * point of the mesh are left out. Collective.
+   * point of the mesh are left out; none for a vessel that does not fill the cylinder.
+   * Collective.
    */
   std::vector<RegionMean> radial_profile(const FlowFields  &fields,
                                          const unsigned int n_annuli,
@@ -57,15 +58,15 @@ namespace graupel
     double x, z, void_fraction, flux, pressure;
   };
 
-  /** The plane y = 0 on a regular grid of @p n_across points across, z running fastest.
-   * Collective. */
+  /** The plane y = 0 on a regular grid of @p n_across points across, z running fastest;
+   * points outside of the mesh are left out. Collective. */
   std::vector<PlanePoint> mid_plane(const FlowFields  &fields,
                                     const unsigned int n_across);
 
   /**
    * What loose packing at the wall does by itself: the common pressure gradient
    * of annuli that each obey Ergun's equation, over Ergun's gradient at
-   * @p mean_void_fraction, minus 1 [-].
+   * @p mean_void_fraction, minus 1 [-]; not a number without annuli.
    */
   double wall_channelling_deviation(const std::vector<RegionMean> &radial,
                                     const FluidProperties         &fluid,
