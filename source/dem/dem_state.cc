@@ -19,13 +19,6 @@ namespace graupel
         all.insert(all.end(), of_rank.begin(), of_rank.end());
       return all;
     }
-
-    std::array<double, 6>
-    axis_of(const Wall &wall)
-    {
-      const auto &point = wall.course.center(), &axis = wall.course.axis();
-      return {{point.x, point.y, point.z, axis.x, axis.y, axis.z}};
-    }
   } // namespace
 
   DemState
@@ -44,49 +37,11 @@ namespace graupel
               result.particles.end(),
               [](const auto &a, const auto &b) { return a.id < b.id; });
     result.contacts = from_all_ranks(contacts.contacts_of(arrays, rows), communicator());
-    for (const Wall &wall : walls)
-      {
-        const auto &shift = wall.pose.shift;
-        result.walls.push_back({wall.name,
-                                wall.fingerprint(),
-                                {{shift.x, shift.y, shift.z}},
-                                wall.pose.angle,
-                                axis_of(wall)});
-      }
+    result.walls    = state_of_walls();
     result.clock_runs = time.has_value();
     result.clock      = clock();
     result.n_departed = n_departed_so_far;
     return result;
-  }
-
-  std::vector<std::int64_t>
-  Dem::restore_walls(const DemState &state)
-  {
-    time = state.clock_runs ? Clock(state.clock) : Clock();
-    std::vector<std::int64_t> number_here(state.walls.size(), -1);
-    for (unsigned int w = 0; w < walls.size(); ++w)
-      {
-        Wall      &wall = walls[w];
-        const auto of_old =
-          std::find_if(state.walls.begin(), state.walls.end(), [&](const auto &old) {
-            return old.name == wall.name && old.shape == wall.fingerprint();
-          });
-        WallPose pose;
-        if (of_old != state.walls.end())
-          {
-            pose = {{of_old->shift[0], of_old->shift[1], of_old->shift[2]},
-                    of_old->angle};
-            if (pose.angle != 0. && of_old->axis != axis_of(wall))
-              throw DemError("the wall \"" + wall.name +
-                             "\" has turned about another axis than it has here; give it "
-                             "the same one in Walls/motion, if only with speed 0");
-          }
-        wall.place(pose, time);
-        wall.look_at(time);
-        if (of_old != state.walls.end() && wall.is_there)
-          number_here[of_old - state.walls.begin()] = w;
-      }
-    return number_here;
   }
 
   void
@@ -98,6 +53,7 @@ namespace graupel
     particle_store.clear();
     total_mass = total_volume = 0.;
 
+    const auto               number_here = restore_walls(state);
     std::vector<NewParticle> added;
     for (const auto &particle : state.particles)
       {
@@ -134,7 +90,6 @@ namespace graupel
     halo.rebuild(arrays);
     // Those with walls know one particle only, which must be here, as must the wall.
     std::sort(own.begin(), own.end());
-    const auto                number_here = restore_walls(state);
     std::vector<LooseContact> mine;
     for (LooseContact contact : state.contacts)
       {
