@@ -1,4 +1,3 @@
-#include <graupel/base/parameters.h>
 #include <graupel/dem/dem.h>
 #include <graupel/dem/numbers/exact_sum.h>
 #include <graupel/dem/particles/dem_error.h>
@@ -6,7 +5,6 @@
 
 #include <limits>
 #include <numeric>
-#include <sstream>
 
 namespace graupel
 {
@@ -117,6 +115,7 @@ namespace graupel
   Dem::insert(const std::vector<NewParticle> &added)
   {
     check_sizes(added);
+    check_places(added);
     // The ghosts make room; the contacts with them find them again by their ids.
     const auto         old_ids     = arrays.id;
     const unsigned int old_n_owned = arrays.n_owned;
@@ -386,78 +385,6 @@ namespace graupel
   }
 
   void
-  Dem::start_clock(const double t)
-  {
-    time = t;
-    open_and_close_gates();
-  }
-
-  void
-  Dem::move_walls(const double dt)
-  {
-    open_and_close_gates();
-    const Cylinder &cylinder = mesh.cylinder();
-    const double    size =
-      std::hypot(0.5 * cylinder.diameter, cylinder.height) + 2. * input.largest_radius();
-    double speed = 0.;
-    for (Wall &wall : walls)
-      if (wall.course.moves())
-        {
-          wall.move(dt, time);
-          const double own = wall.approach_speed(size);
-          if (!std::isfinite(own + wall.velocity().norm_square()))
-            throw DemError("the wall \"" + wall.name +
-                           "\" has no finite velocity at t = " + std::to_string(clock()) +
-                           " s (Walls/motion)");
-          speed = std::max(speed, own);
-        }
-    walls_moved_since_list += dt * speed;
-    moved_since_list += dt * speed;
-  }
-
-  void
-  Dem::open_and_close_gates()
-  {
-    std::string problem;
-    bool        some_wall_comes = false, some_wall_changes = false;
-    for (unsigned int w = 0; w < walls.size(); ++w)
-      if (walls[w].look_at(time))
-        {
-          // Whoever is near it must be found anew.
-          contacts.leave_wall(w);
-          list.clear();
-          list_is_valid     = false;
-          some_wall_changes = true;
-          some_wall_comes   = some_wall_comes || walls[w].is_there;
-          if (walls[w].is_there)
-            problem += in_the_way_of(walls[w]);
-        }
-    if (some_wall_changes)
-      shape.follow(walls);
-    if (some_wall_comes)
-      throw_together(problem, communicator());
-  }
-
-  std::string
-  Dem::in_the_way_of(const Wall &wall) const
-  {
-    for (unsigned int i = 0; i < arrays.n_owned; ++i)
-      {
-        const Body &body = arrays.body[i];
-        if (!wall.is_admissible(body.position,
-                                (1. - ContactSweep::largest_overlap) * body.radius))
-          {
-            std::ostringstream text;
-            text << "particle " << arrays.id[i] << " at (" << body.position
-                 << ") m is in the way of the wall \"" << wall.name
-                 << "\", which comes at t = " << clock() << " s (Walls/gates). ";
-            return text.str();
-          }
-      }
-    return {};
-  }
-
-  void
   Dem::update_neighbors()
   {
     // Rounding must not let a pair slip through.
@@ -567,24 +494,6 @@ namespace graupel
   Dem::n_departed() const
   {
     return std::accumulate(departed_by_type.begin(), departed_by_type.end(), 0ul);
-  }
-
-  unsigned int
-  Dem::wall_number(const std::string &name) const
-  {
-    const auto wall = std::find_if(
-      walls.begin(), walls.end(), [&](const Wall &w) { return w.name == name; });
-    require(wall != walls.end(), "", "the vessel has no wall \"" + name + "\"");
-    return wall - walls.begin();
-  }
-
-  double
-  Dem::supported_weight() const
-  {
-    double sum = 0.;
-    for (unsigned int w = 0; w < walls.size(); ++w)
-      sum += along_gravity(w);
-    return sum;
   }
 
   double

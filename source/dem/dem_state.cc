@@ -20,13 +20,6 @@ namespace graupel
       return all;
     }
 
-    std::array<double, 6>
-    axis_of(const Wall &wall)
-    {
-      const auto &point = wall.course.center(), &axis = wall.course.axis();
-      return {{point.x, point.y, point.z, axis.x, axis.y, axis.z}};
-    }
-
     // A load that was counted in the quanta of a bed with other contacts.
     void
     recount(Load &load, const DemState &state, const ForceQuanta &here)
@@ -57,15 +50,7 @@ namespace graupel
               result.particles.end(),
               [](const auto &a, const auto &b) { return a.id < b.id; });
     result.contacts = from_all_ranks(contacts.contacts_of(arrays, rows), communicator());
-    for (const Wall &wall : walls)
-      {
-        const auto &shift = wall.pose.shift;
-        result.walls.push_back({wall.name,
-                                wall.fingerprint(),
-                                {{shift.x, shift.y, shift.z}},
-                                wall.pose.angle,
-                                axis_of(wall)});
-      }
+    result.walls             = state_of_walls();
     result.clock_runs        = time.has_value();
     result.clock             = clock();
     result.departed          = departed_by_type;
@@ -76,36 +61,6 @@ namespace graupel
     result.force_quantum     = contacts.quanta().force;
     result.torque_quantum    = contacts.quanta().torque;
     return result;
-  }
-
-  std::vector<std::int64_t>
-  Dem::restore_walls(const DemState &state)
-  {
-    time = state.clock_runs ? Clock(state.clock) : Clock();
-    std::vector<std::int64_t> number_here(state.walls.size(), -1);
-    for (unsigned int w = 0; w < walls.size(); ++w)
-      {
-        Wall      &wall = walls[w];
-        const auto of_old =
-          std::find_if(state.walls.begin(), state.walls.end(), [&](const auto &old) {
-            return old.name == wall.name && old.shape == wall.fingerprint();
-          });
-        WallPose pose;
-        if (of_old != state.walls.end())
-          {
-            pose = {{of_old->shift[0], of_old->shift[1], of_old->shift[2]},
-                    of_old->angle};
-            if (pose.angle != 0. && of_old->axis != axis_of(wall))
-              throw DemError("the wall \"" + wall.name +
-                             "\" has turned about another axis than it has here; give it "
-                             "the same one in Walls/motion, if only with speed 0");
-          }
-        wall.place(pose, time);
-        wall.look_at(time);
-        if (of_old != state.walls.end() && wall.is_there)
-          number_here[of_old - state.walls.begin()] = w;
-      }
-    return number_here;
   }
 
   void
@@ -121,6 +76,7 @@ namespace graupel
     departed_by_type.assign(n_types, 0);
     departed_volume.assign(n_types, 0.);
 
+    const auto               number_here = restore_walls(state);
     std::vector<NewParticle> added;
     for (const auto &particle : state.particles)
       {
@@ -158,7 +114,6 @@ namespace graupel
     halo.rebuild(arrays);
     // Those with walls know one particle only, which must be here, as must the wall.
     std::sort(own.begin(), own.end());
-    const auto                number_here = restore_walls(state);
     std::vector<LooseContact> mine;
     for (LooseContact contact : state.contacts)
       {

@@ -3,6 +3,7 @@
 
 #include <graupel/base/parameters.h>
 #include <graupel/dem/packing/filling.h>
+#include <graupel/dem/particles/dem_error.h>
 
 #include <random>
 
@@ -95,6 +96,39 @@ namespace
     EXPECT_EQ(first_refusing_wall(walls, {0.5, 0.5, 0.5}, 0.1), &walls[0]);
     EXPECT_EQ(first_refusing_wall(walls, {0.5, 0.5, 1.5}, 0.1), &walls[1]);
     EXPECT_EQ(first_refusing_wall(walls, {0.5, 0.5, 1.5}, 0.1, 2), nullptr);
+  }
+
+  // A place beyond a wall or inside of a body is refused, whoever gives it.
+  TEST(Admissible, ParticlesInPlacesThatCannotBe)
+  {
+    DemParameters p    = SmallColumn::parameters();
+    p.walls.planes     = "floor: 0 0 0.003 0 0 -1";
+    p.walls.surfaces   = "box: " + write_stl("solid",
+                                           box_shape(Point<3>(-3e-3, -3e-3, 10e-3),
+                                                     Point<3>(3e-3, 3e-3, 16e-3)));
+    const auto message = [&](const auto &act) -> std::string {
+      try
+        {
+          act();
+        }
+      catch (const DemError &error)
+        {
+          return error.what();
+        }
+      return {};
+    };
+    SmallColumn column(p);
+    EXPECT_NE(
+      message([&]() { column.dem.insert({Point<3>(0., 0., 13e-3)}); }).find("box"),
+      std::string::npos);
+    EXPECT_NE(
+      message([&]() { column.dem.insert({Point<3>(0., 0., 2e-3)}); }).find("floor"),
+      std::string::npos);
+    SmallColumn empty(SmallColumn::parameters());
+    empty.dem.insert({Point<3>(0., 0., 13e-3)});
+    const DemState state = empty.dem.state();
+    EXPECT_NE(message([&]() { column.dem.restore(state); }).find("box"),
+              std::string::npos);
   }
 
   // No sphere is placed inside a closed box, and all are inside of a container.

@@ -31,7 +31,8 @@ namespace graupel
     /**
      * Adds simulated particles. The same call on every rank, collective. Own rows
      * stay, new ones come behind them. Throws DemError for a size that its type does
-     * not have: substep, halo and lists are made for those of the types.
+     * not have (substep, halo and lists are made for those of the types), and for a place
+     * beyond a wall or inside of a body.
      */
     void insert(const std::vector<NewParticle> &added);
 
@@ -319,6 +320,7 @@ namespace graupel
   private:
     Integration                integration(const double dt) const;
     void                       substep_by(const double dt, const bool first);
+    void                       check_places(const std::vector<NewParticle> &added) const;
     void                       update_neighbors();
     std::string                first_problem() const;
     void                       wrap();
@@ -334,7 +336,8 @@ namespace graupel
     bool has_external_forces() const;
     void move_walls(const double dt);
     void open_and_close_gates();
-    std::string in_the_way_of(const Wall &wall) const;
+    std::string                 in_the_way_of(const Wall &wall) const;
+    std::vector<DemState::Wall> state_of_walls() const;
     // The number here of each wall of a state; -1 for one whose contacts end.
     std::vector<std::int64_t> restore_walls(const DemState &state);
 
