@@ -169,6 +169,66 @@ namespace
       1.5 * 2e-3);
   }
 
+  // The bed of so many spheres in the column with these planes, at rest.
+  BedObservables::Bed
+  settled_bed(const std::string &planes, const FillingParameters &fill)
+  {
+    DemParameters parameters = SmallColumn::parameters();
+    parameters.walls.planes  = planes;
+    SmallColumn column(parameters);
+    Filling     filling(fill, column.dem);
+    while (filling.step())
+      {
+      }
+    Settling settling(SettlingParameters(), column.dem);
+    while (settling.step())
+      {
+      }
+    const auto bed =
+      BedObservables(column.dem.particles(), column.dem.vessel_shape(), MPI_COMM_WORLD)
+        .bed();
+    std::cout << "bed from " << bed.bottom << " m, height " << bed.height
+              << " m, expanded " << bed.expanded_height << " m, void fraction "
+              << bed.mean_void_fraction << '\n';
+    return bed;
+  }
+
+  // In a column, on a raised floor, in a duct and in a funnel: a bed has the void
+  // fraction of spheres, begins at the floor, and both of its heights agree to 0.1 d.
+  TEST(Bed, AtRestInVesselsThatPlanesMake)
+  {
+    const std::string raised = "0 0 0.003 0 0 -1",
+                      duct = "0.0032 0 0 1 0 0, -0.0032 0 0 -1 0 0, 0 0.0032 0 0 1 0, 0 "
+                             "-0.0032 0 0 -1 0",
+                      funnel = "0.003 0 0 0.98 0 -0.2, -0.003 0 0 -0.98 0 -0.2";
+    double in_column         = 0.;
+    for (const std::string &planes : {std::string(), raised, duct, funnel})
+      {
+        const auto bed = settled_bed(planes, by_count(planes == duct ? 60 : 110));
+        EXPECT_TRUE(bed.exists);
+        EXPECT_EQ(bed.bottom, planes == raised ? 0.003 : 0.);
+        EXPECT_NEAR(bed.expanded_height, bed.height, 0.1 * 2e-3);
+        EXPECT_GT(bed.mean_void_fraction, 0.4);
+        EXPECT_LT(bed.mean_void_fraction, 0.58);
+        if (planes.empty())
+          in_column = bed.height;
+        if (planes == raised)
+          {
+            EXPECT_NEAR(bed.height, in_column, 0.5 * 2e-3);
+          }
+      }
+  }
+
+  // Half of the column has half of the room.
+  TEST(Bed, FilledToAHeightInHalfOfTheColumnAndOnARaisedFloor)
+  {
+    FillingParameters to_height = by_count(0);
+    to_height.bed_height        = 0.014;
+    to_height.method            = "packing";
+    for (const std::string planes : {"0.0005 0 0 1 0 0", "0 0 0.006 0 0 -1"})
+      EXPECT_NEAR(settled_bed(planes, to_height).height, 0.014, 1.5 * 2e-3);
+  }
+
   // A bed that is too loose is tapped to its target, and not far beyond: one
   // particle's share in a small bed, 0.01.
   TEST(Bed, TappedToATarget)
