@@ -147,6 +147,7 @@ TEST(Study, ACaseMustOutlastItsRamp)
   parameters.sweep.superficial_velocities = {0.2, 0.4};
   // The faster of them is over after 0.3 * 0.04 / 0.4 = 0.03 s.
   parameters.cylinder.height     = 0.04;
+  parameters.filling.bed_height  = 0.02;
   parameters.sweep.flow_throughs = 0.3;
   parameters.sweep.ramp_time     = 0.04;
   EXPECT_NE(complaint(parameters)
