@@ -304,11 +304,13 @@ namespace graupel
           const double drag =
             result.drag.local_element(k) * flow.flux()[i].local_element(k) / alpha -
             result.drag_source[i].local_element(k);
-          lost[i] +=
-            nodes.measure().local_element(k) *
-            (drag - share * (1. - alpha) * pressure_gradient[i].local_element(k));
+          lost[i] += nodes.measure().local_element(k) *
+                     (drag + share * alpha * pressure_gradient[i].local_element(k));
         }
-    lost              = dealii::Utilities::MPI::sum(lost, nodes.mesh.communicator());
+    // The solids' share of the pressure is what the fluid's leaves of the total, which
+    // the flow finds without the gradient at the nodes.
+    lost = dealii::Utilities::MPI::sum(lost, nodes.mesh.communicator()) -
+           share * flow.pressure_force();
     const double size = std::max(lost.norm(), fluid_force.norm());
     momentum_error    = size > 0. ? (lost - fluid_force).norm() / size : 0.;
   }

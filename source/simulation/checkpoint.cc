@@ -76,7 +76,9 @@ namespace graupel
       raw(archive, state.costs);
       archive &state.wall_seconds &state.cpu_seconds;
       archive &state.written.fields &state.written.particles &state.written.contacts;
-      archive &state.has_fluid &state.fluid_time &state.in_case;
+      archive                                                &state.has_fluid;
+      raw(archive, state.fluid);
+      archive &state.in_case;
       archive &state.velocity &state.case_begin &state.ramp_from;
       std::size_t                                n = state.case_rows.size();
       archive                                   &n;

@@ -23,7 +23,7 @@ namespace graupel
     state.costs.contact_steps  = mpi::sum(summary.costs.contact_steps, communicator);
     state.written              = files.written();
     state.has_fluid            = coupled.has_value();
-    state.fluid_time           = coupled ? coupled->fluid().time() : 0.;
+    state.fluid                = coupled ? coupled->fluid().history() : FlowHistory();
     state.in_case              = in_case;
     state.velocity             = case_velocity;
     state.ramp_from            = ramp_from;
@@ -103,7 +103,7 @@ namespace graupel
     coupled.emplace(
       parameters, summary.bed.original_solid_ratio, mesh, dem, summary.costs);
     coupled->set_superficial_velocity(state.velocity);
-    coupled->load(state.fluid_time);
+    coupled->load(state.fluid);
     if (!state.in_case)
       return;
     begin_case(state.velocity);

@@ -2,6 +2,7 @@
 #define graupel_simulation_checkpoint_h
 
 #include <graupel/dem/dem_state.h>
+#include <graupel/fluid/flow_history.h>
 #include <graupel/simulation/result_files.h>
 #include <graupel/simulation/run_parameters.h>
 #include <graupel/simulation/summary.h>
@@ -24,8 +25,8 @@ namespace graupel
     double                  wall_seconds = 0., cpu_seconds = 0.;
     ResultFiles::Written    written;
 
-    bool                    has_fluid  = false;
-    double                  fluid_time = 0.;    // [s]
+    bool                    has_fluid = false;
+    FlowHistory             fluid;
     bool                    in_case    = false; // within a flow case,
     double                  ramp_from  = 0.;    // superficial velocity before [m/s]
     double                  velocity   = 0.;    // of this superficial velocity [m/s],
