@@ -259,6 +259,7 @@ namespace graupel
   void
   Exchange::keep_ledger(const FlowSolver &flow, const NodalVectorField &pressure_gradient)
   {
+    const double         model_share = result.shares_pressure ? 1. : 0.;
     dealii::Tensor<1, 3> lost;
     double               traffic = 0.;
     for (unsigned int i = 0; i < 3; ++i)
@@ -272,12 +273,15 @@ namespace graupel
           const double drag =
             result.drag.local_element(k) * flow.flux()[i].local_element(k) / alpha -
             result.drag_source[i].local_element(k);
-          const double pressure = share * pressure_gradient[i].local_element(k);
+          const double gradient = pressure_gradient[i].local_element(k);
           const double measure  = nodes.measure().local_element(k);
-          lost[i] += measure * (drag - pressure);
-          traffic += measure * (std::abs(drag) + std::abs(pressure));
+          lost[i] += measure * (drag + (model_share - share) * gradient);
+          traffic += measure * (std::abs(drag) + std::abs(share * gradient));
         }
-    lost           = dealii::Utilities::MPI::sum(lost, nodes.mesh.communicator());
+    // The solids' share of the pressure is what the fluid's leaves of the total, which
+    // the flow finds without the gradient at the nodes.
+    lost = dealii::Utilities::MPI::sum(lost, nodes.mesh.communicator()) -
+           model_share * flow.pressure_force();
     traffic        = dealii::Utilities::MPI::sum(traffic, nodes.mesh.communicator());
     momentum_error = traffic > 0. ? (lost - fluid_force).norm() / traffic : 0.;
   }

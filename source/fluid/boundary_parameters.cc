@@ -75,6 +75,29 @@ namespace graupel
                 parameter,
                 "the expression \"" + expressions[c] + "\" has no finite value");
     }
+    // Where fluid enters it must be able to leave. What a velocity, or a mass flow rate
+    // beside another inlet, lets in or out is known in the run only.
+    void
+    require_exit(const std::vector<BoundaryCondition> &conditions,
+                 const std::string                    &remark)
+    {
+      std::array<unsigned int, BoundaryCondition::no_slip + 1> count{};
+      unsigned int                                             n_inlets = 0;
+      for (const BoundaryCondition &condition : conditions)
+        {
+          ++count[condition.kind];
+          n_inlets += condition.is_inlet() ? 1 : 0;
+        }
+      const bool may_balance =
+        n_inlets == 0 || count[BoundaryCondition::velocity] > 0 ||
+        (count[BoundaryCondition::mass_flow_rate] > 0 && n_inlets > 1);
+      require(count[BoundaryCondition::pressure] > 0 || may_balance,
+              "Boundary conditions/top",
+              "fluid enters, but no boundary has a pressure, so that it cannot leave; "
+              "\"pressure 0\" at the top is usual, and in a vessel that is closed all "
+              "around no boundary lets fluid in, the bottom neither" +
+                remark);
+    }
   } // namespace
 
   BoundaryCondition
@@ -146,15 +169,10 @@ namespace graupel
   void
   BoundaryParameters::check() const
   {
-    const auto all = conditions();
-    require(std::any_of(all.begin(),
-                        all.end(),
-                        [](const auto &entry) {
-                          return entry.second.kind == BoundaryCondition::pressure;
-                        }),
-            "Boundary conditions/top",
-            "no boundary has a pressure, so that the fluid cannot leave and its pressure "
-            "has no level; \"pressure 0\" at the top is usual");
+    std::vector<BoundaryCondition> all;
+    for (const auto &entry : conditions())
+      all.push_back(entry.second);
+    require_exit(all, "");
   }
 
   std::map<std::string, BoundaryCondition>
@@ -192,18 +210,14 @@ namespace graupel
               "the mesh has no boundary \"" + entry.first + "\"; it has " + names);
 
     std::map<dealii::types::boundary_id, BoundaryCondition> result;
-    bool                                                    has_outlet = false;
+    std::vector<BoundaryCondition>                          all;
     for (const auto &[name, id] : boundaries)
       {
         const auto own = by_name.find(name);
         result[id]     = own == by_name.end() ? by_name.at("wall") : own->second;
-        has_outlet     = has_outlet || result[id].kind == BoundaryCondition::pressure;
+        all.push_back(result[id]);
       }
-    require(has_outlet,
-            "Boundary conditions/top",
-            "no boundary of the mesh has a pressure, so that the fluid cannot leave; its "
-            "boundaries are " +
-              names);
+    require_exit(all, "; the mesh has " + names);
     return result;
   }
 } // namespace graupel

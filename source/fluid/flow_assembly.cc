@@ -35,7 +35,7 @@ namespace graupel
         for (unsigned int i = 0; i < 3; ++i)
           {
             state.flux[a][i]        = carrier[i].local_element(node);
-            state.history[a][i]     = history[i].local_element(node);
+            state.history[a][i]     = flux_history[i].local_element(node);
             state.drag_source[a][i] = medium.drag_source[i].local_element(node);
             state.force[a][i]       = medium.force[i].local_element(node);
           }
@@ -59,7 +59,7 @@ namespace graupel
       {
         const CellState state = gather(cell, medium);
         for (unsigned int a = 0; a < nodes_per_cell; ++a)
-          pressure[a] = pressure_now.local_element(space.cell_nodes[cell][a]);
+          pressure[a] = relative_pressure.local_element(space.cell_nodes[cell][a]);
         for (unsigned int q = 0; q < space.points_per_cell; ++q)
           {
             const unsigned int number = cell * space.points_per_cell + q;
@@ -75,9 +75,26 @@ namespace graupel
   void
   FlowSolver::assemble(const Medium &medium)
   {
+    fastest   = fastest_speed(medium.void_fraction);
+    assembled.rate          = scheme.now;
+    assembled.subscale_rate = subscale_scheme.now;
+    assembled.speed         = fastest;
+    assembled.void_fraction = medium.void_fraction;
+    assembled.drag          = medium.drag;
+    assembled.carrier       = carrier;
+    assembled.has_solids    = medium.solids.has_value();
+    if (medium.solids)
+      assembled.solids = {medium.solids->by_velocity,
+                          medium.solids->by_gradient,
+                          medium.solids->pressure_share};
+    assemble_system(medium);
+  }
+
+  void
+  FlowSolver::assemble_system(const Medium &medium)
+  {
     matrix                              = 0.;
     rhs                                 = 0.;
-    fastest                             = fastest_speed(medium.void_fraction);
     const FlowCoefficients coefficients = this->coefficients();
     for (unsigned int cell = 0; cell < space.n_cells(); ++cell)
       {
@@ -103,15 +120,10 @@ namespace graupel
   void
   FlowSolver::assemble_inlets()
   {
-    for (const auto id : boundaries.inlets())
-      for (const auto &point : space.boundary(id))
+    for (const auto &inlet : boundaries.inlets())
+      for (const auto &point : space.boundary(inlet.id))
         {
-          double normal_flux = 0.;
-          for (unsigned int a = 0; a < nodes_per_cell; ++a)
-            for (unsigned int i = 0; i < 3; ++i)
-              normal_flux +=
-                point.value[a] * point.normal[i] *
-                boundaries.flux()[i].local_element(space.cell_nodes[point.cell][a]);
+          const double normal_flux = space.normal_component(point, inlet.flux);
           for (unsigned int a = 0; a < nodes_per_cell; ++a)
             cell_rhs[unknowns_per_node * a + 3] -=
               point.weight * point.value[a] * normal_flux;
@@ -122,45 +134,64 @@ namespace graupel
   void
   FlowSolver::assemble_outlets(const Medium &medium)
   {
-    for (const auto id : boundaries.outlets())
-      for (const auto &point : space.boundary(id))
-        {
-          const CellState      state    = gather(point.cell, medium);
-          double               backflow = 0.; // momentum that must not enter
-          double               pressure = 0.;
-          dealii::Tensor<1, 3> traction;
-          for (unsigned int a = 0; a < nodes_per_cell; ++a)
-            {
-              const unsigned int node = space.cell_nodes[point.cell][a];
-              backflow += point.value[a] * (state.flux[a] * point.normal);
-              pressure += point.value[a] * boundaries.pressure().local_element(node);
-              for (unsigned int i = 0; i < 3; ++i)
-                traction[i] += point.value[a] * outlet_traction[i].local_element(node);
-            }
-          backflow = density * std::max(0., -backflow);
-          for (unsigned int a = 0; a < nodes_per_cell; ++a)
-            {
-              const unsigned int row   = unknowns_per_node * a;
-              const double       share = point.weight * point.value[a];
-              for (unsigned int i = 0; i < 3; ++i)
-                cell_rhs[row + i] += share * (traction[i] - state.pressure_share[a] *
-                                                              pressure * point.normal[i]);
-              for (unsigned int b = 0; b < nodes_per_cell; ++b)
-                {
-                  const double       mass   = share * point.value[b];
-                  const unsigned int column = unknowns_per_node * b;
-                  for (unsigned int i = 0; i < 3; ++i)
-                    {
-                      cell_matrix(row + i, column + 3) -=
-                        state.pressure_share[a] * mass * point.normal[i];
-                      cell_matrix(row + 3, column + i) += mass * point.normal[i];
-                      cell_matrix(row + i, column + i) +=
-                        backflow * mass / state.void_fraction[b];
-                    }
-                }
-            }
-          scatter->add(point.cell, cell_matrix, cell_rhs, rhs);
-        }
+    for (const auto &outlet : boundaries.outlets())
+      {
+        const double returning = returning_share(outlet.id);
+        for (const auto &point : space.boundary(outlet.id))
+          assemble_outlet_point(outlet, point, returning, medium);
+      }
+  }
+
+  double
+  FlowSolver::returning_share(const dealii::types::boundary_id outlet) const
+  {
+    double in = 0., out = 0.;
+    for (const auto &point : space.boundary(outlet))
+      {
+        const double flow = point.weight * space.normal_component(point, carrier);
+        (flow < 0. ? in : out) += std::abs(flow);
+      }
+    in  = dealii::Utilities::MPI::sum(in, nodes.mesh.communicator());
+    out = dealii::Utilities::MPI::sum(out, nodes.mesh.communicator());
+    return in > 0. ? std::min(1., out / in) : 0.;
+  }
+
+  void
+  FlowSolver::assemble_outlet_point(const FlowBoundaries::Outlet &outlet,
+                                    const FlowSpace::FacePoint   &point,
+                                    const double                  returning,
+                                    const Medium                 &medium)
+  {
+    const CellState state    = gather(point.cell, medium);
+    const double    pressure = space.value(point, outlet.pressure);
+    // Momentum that must not enter, a velocity.
+    const double backflow =
+      returning * density * std::max(0., -space.normal_component(point, carrier));
+    dealii::Tensor<1, 3> traction;
+    for (unsigned int i = 0; i < 3; ++i)
+      traction[i] = space.value(point, outlet_traction[i]);
+    for (unsigned int a = 0; a < nodes_per_cell; ++a)
+      {
+        const unsigned int row   = unknowns_per_node * a;
+        const double       share = point.weight * point.value[a];
+        for (unsigned int i = 0; i < 3; ++i)
+          cell_rhs[row + i] +=
+            share * (traction[i] - state.pressure_share[a] * pressure * point.normal[i]);
+        for (unsigned int b = 0; b < nodes_per_cell; ++b)
+          {
+            const double       mass   = share * point.value[b];
+            const unsigned int column = unknowns_per_node * b;
+            for (unsigned int i = 0; i < 3; ++i)
+              {
+                cell_matrix(row + i, column + 3) -=
+                  state.pressure_share[a] * mass * point.normal[i];
+                cell_matrix(row + 3, column + i) += mass * point.normal[i];
+                cell_matrix(row + i, column + i) +=
+                  backflow * mass / state.void_fraction[b];
+              }
+          }
+      }
+    scatter->add(point.cell, cell_matrix, cell_rhs, rhs);
   }
 
   void
@@ -206,6 +237,8 @@ namespace graupel
       local = 0.;
     };
 
+    // Without a prescribed pressure its level is of no consequence, but must be one.
+    const double level = is_closed() ? 1. / std::pow(volume, 2. / 3.) : 0.;
     for (unsigned int cell = 0; cell < space.n_cells(); ++cell)
       {
         const CellState state = gather(cell, medium);
@@ -227,12 +260,13 @@ namespace graupel
             for (unsigned int a = 0; a < nodes_per_cell; ++a)
               for (unsigned int b = 0; b < nodes_per_cell; ++b)
                 local(a, b) += point.weight * conductivity[cell] *
-                               (point.gradient[a] * point.gradient[b]);
+                               (point.gradient[a] * point.gradient[b] +
+                                level * point.value[a] * point.value[b]);
           }
         distribute_nodes(cell);
       }
-    for (const auto id : boundaries.outlets())
-      for (const auto &point : space.boundary(id))
+    for (const auto &outlet : boundaries.outlets())
+      for (const auto &point : space.boundary(outlet.id))
         {
           const double weight = conductivity[point.cell] / space.cell_sizes[point.cell];
           for (unsigned int a = 0; a < nodes_per_cell; ++a)

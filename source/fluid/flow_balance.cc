@@ -3,43 +3,113 @@
 namespace graupel
 {
   double
-  FlowSolver::outflow() const
+  FlowSolver::flow_through(const dealii::types::boundary_id boundary) const
   {
     double flow = 0.;
-    for (const auto id : boundaries.outlets())
-      for (const auto &point : space.boundary(id))
-        for (unsigned int a = 0; a < nodes_per_cell; ++a)
-          for (unsigned int i = 0; i < 3; ++i)
-            flow += point.weight * point.value[a] * point.normal[i] *
-                    flux_now[i].local_element(space.cell_nodes[point.cell][a]);
+    for (const auto &inlet : boundaries.inlets())
+      if (inlet.id == boundary)
+        for (const auto &point : space.boundary(boundary))
+          flow += point.weight * space.normal_component(point, inlet.flux);
+    for (const auto &outlet : boundaries.outlets())
+      if (outlet.id == boundary)
+        for (const auto &point : space.boundary(boundary))
+          flow += point.weight * space.normal_component(point, flux_now);
     return dealii::Utilities::MPI::sum(flow, nodes.mesh.communicator());
   }
 
   double
-  FlowSolver::mass_error() const
+  FlowSolver::flow_below(const double z) const
   {
-    // The solution is the carrier now, and the inlets have their flux exactly.
-    double     surplus = 0.;
-    const auto through = [&](const std::vector<dealii::types::boundary_id> &ids,
-                             const NodalVectorField                        &flux) {
-      for (const auto id : ids)
-        for (const auto &point : space.boundary(id))
-          for (unsigned int a = 0; a < nodes_per_cell; ++a)
-            for (unsigned int i = 0; i < 3; ++i)
-              surplus -= point.weight * point.value[a] * point.normal[i] *
-                         flux[i].local_element(space.cell_nodes[point.cell][a]);
-    };
-    through(boundaries.inlets(), boundaries.flux());
-    for (const auto id : boundaries.outlets())
+    double     flow  = 0.;
+    const auto enter = [&](const dealii::types::boundary_id id,
+                           const NodalVectorField          &flux) {
       for (const auto &point : space.boundary(id))
-        for (unsigned int a = 0; a < nodes_per_cell; ++a)
-          for (unsigned int i = 0; i < 3; ++i)
-            surplus -= point.weight * point.value[a] * point.normal[i] *
-                       solution.block(0)(
-                         space.cell_unknowns[point.cell][unknowns_per_node * a + i]);
+        if (point.position[2] < z)
+          flow -= point.weight * space.normal_component(point, flux);
+    };
+    for (const auto &inlet : boundaries.inlets())
+      enter(inlet.id, inlet.flux);
+    for (const auto &outlet : boundaries.outlets())
+      enter(outlet.id, flux_now);
+    return dealii::Utilities::MPI::sum(flow, nodes.mesh.communicator());
+  }
+
+  double
+  FlowSolver::outflow() const
+  {
+    double flow = 0.;
+    for (const auto &outlet : boundaries.outlets())
+      flow += flow_through(outlet.id);
+    return flow;
+  }
+
+  double
+  FlowSolver::inflow() const
+  {
+    double flow = 0.;
+    for (const auto &inlet : boundaries.inlets())
+      flow -= flow_through(inlet.id);
+    return flow;
+  }
+
+  double
+  FlowSolver::surplus() const
+  {
+    double     surplus = 0.;
+    const auto leave   = [&](const dealii::types::boundary_id id,
+                           const NodalVectorField          &flux) {
+      for (const auto &point : space.boundary(id))
+        surplus -= point.weight * space.normal_component(point, flux);
+    };
+    for (const auto &inlet : boundaries.inlets())
+      leave(inlet.id, inlet.flux);
+    for (const auto &outlet : boundaries.outlets())
+      leave(outlet.id, latest);
     for (unsigned int k = 0; k < alpha_rate.locally_owned_size(); ++k)
       surplus -= nodes.measure().local_element(k) * alpha_rate.local_element(k);
-    return std::abs(dealii::Utilities::MPI::sum(surplus, nodes.mesh.communicator()));
+    return dealii::Utilities::MPI::sum(surplus, nodes.mesh.communicator());
+  }
+
+  double
+  FlowSolver::flow_scale() const
+  {
+    std::array<double, 3> flows{}; // through inlets, through outlets, stored
+    const auto            crossing = [&](const dealii::types::boundary_id id,
+                              const NodalVectorField          &flux,
+                              double                          &flow) {
+      for (const auto &point : space.boundary(id))
+        flow += point.weight * std::abs(space.normal_component(point, flux));
+    };
+    for (const auto &inlet : boundaries.inlets())
+      crossing(inlet.id, inlet.flux, flows[0]);
+    for (const auto &outlet : boundaries.outlets())
+      crossing(outlet.id, latest, flows[1]);
+    double fastest_flux = 0.;
+    for (unsigned int k = 0; k < alpha_rate.locally_owned_size(); ++k)
+      {
+        flows[2] +=
+          nodes.measure().local_element(k) * std::abs(alpha_rate.local_element(k));
+        double squared = 0.;
+        for (const NodalVector &component : latest)
+          squared += component.local_element(k) * component.local_element(k);
+        fastest_flux = std::max(fastest_flux, std::sqrt(squared));
+      }
+    const MPI_Comm communicator = nodes.mesh.communicator();
+    double result = dealii::Utilities::MPI::max(fastest_flux, communicator) * volume /
+                    nodes.mesh.cylinder().height;
+    for (const double flow : flows)
+      result = std::max(result, dealii::Utilities::MPI::sum(flow, communicator));
+    return std::max(result, round_off() / parameters.mass_tolerance);
+  }
+
+  double
+  FlowSolver::round_off() const
+  {
+    // Of the sum over all rows of the continuity equation.
+    const double rows = matrix.block(1, 0).linfty_norm() * solution.block(0).l1_norm() +
+                        matrix.block(1, 1).linfty_norm() * solution.block(1).l1_norm() +
+                        rhs.block(1).l1_norm();
+    return std::numeric_limits<double>::epsilon() * rows;
   }
 
   void
@@ -86,7 +156,7 @@ namespace graupel
       }
     const auto over_ranks =
       dealii::Utilities::MPI::min_max_avg(worst, nodes.mesh.communicator());
-    report.worst_cell_imbalance = over_ranks.max / throughput;
+    report.worst_cell_imbalance = relative_to_flow(over_ranks.max);
     dealii::Tensor<1, 3> place;
     if (dealii::Utilities::MPI::this_mpi_process(nodes.mesh.communicator()) ==
           over_ranks.max_index &&
@@ -94,21 +164,6 @@ namespace graupel
       place = space.cell_centers[number];
     report.worst_cell =
       dealii::Point<3>(dealii::Utilities::MPI::sum(place, nodes.mesh.communicator()));
-  }
-
-  double
-  FlowSolver::mean_pressure(const dealii::types::boundary_id boundary) const
-  {
-    double area = 0., sum = 0.;
-    for (const auto &point : space.boundary(boundary))
-      {
-        area += point.weight;
-        for (unsigned int a = 0; a < nodes_per_cell; ++a)
-          sum += point.weight * point.value[a] *
-                 pressure_now.local_element(space.cell_nodes[point.cell][a]);
-      }
-    return dealii::Utilities::MPI::sum(sum, nodes.mesh.communicator()) /
-           dealii::Utilities::MPI::sum(area, nodes.mesh.communicator());
   }
 
   double
@@ -145,21 +200,5 @@ namespace graupel
                             space.cell_sizes[cell]);
         }
     return dealii::Utilities::MPI::max(rate, nodes.mesh.communicator());
-  }
-
-  NodalVectorField
-  FlowSolver::pressure_gradient() const
-  {
-    NodalVectorField result;
-    for (unsigned int i = 0; i < 3; ++i)
-      {
-        nodes.initialize(result[i]);
-        space.gradient[i].vmult(result[i], pressure_now);
-        for (unsigned int k = 0; k < result[i].locally_owned_size(); ++k)
-          result[i].local_element(k) /= nodes.measure().local_element(k);
-        nodes.hanging_nodes.distribute(result[i]);
-        result[i].update_ghost_values();
-      }
-    return result;
   }
 } // namespace graupel

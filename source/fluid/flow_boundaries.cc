@@ -25,6 +25,32 @@ namespace graupel
       return function;
     }
 
+    // Normals of two inlets at a node are different if the sine of their angle is above.
+    constexpr double different_normals = 0.3;
+
+    // The vector next to the mean of @p vectors that has the normal component of each.
+    dealii::Tensor<1, 3>
+    join(const std::vector<dealii::Tensor<1, 3>> &vectors,
+         const std::vector<dealii::Tensor<1, 3>> &normals)
+    {
+      dealii::Tensor<1, 3> result;
+      for (const auto &vector : vectors)
+        result += vector / static_cast<double>(vectors.size());
+      std::vector<dealii::Tensor<1, 3>> directions; // orthonormal
+      for (unsigned int i = 0; i < vectors.size(); ++i)
+        {
+          dealii::Tensor<1, 3> rest = normals[i];
+          for (const auto &direction : directions)
+            rest -= (rest * direction) * direction;
+          const double size = rest.norm();
+          if (size < different_normals)
+            continue;
+          directions.push_back(rest / size);
+          result += ((vectors[i] - result) * normals[i] / size) * directions.back();
+        }
+      return result;
+    }
+
     // Inlets first: where an inlet meets a wall, its flux holds.
     unsigned int
     rank(const BoundaryCondition &condition)
@@ -58,18 +84,19 @@ namespace graupel
         space.nodes.initialize(component);
         component.update_ghost_values();
       }
-    space.nodes.initialize(prescribed_pressure);
-    prescribed_pressure.update_ghost_values();
-
     for (Boundary &boundary : boundaries)
       {
         measure(boundary);
         if (boundary.condition.is_inlet())
-          inlet_ids.push_back(boundary.id);
+          inlet_fluxes.push_back({boundary.id, prescribed_flux});
         if (boundary.condition.kind == BoundaryCondition::pressure)
-          outlet_ids.push_back(boundary.id);
+          {
+            outlet_pressures.push_back({boundary.id, {}});
+            space.nodes.initialize(outlet_pressures.back().pressure);
+          }
       }
     find_nodes();
+    find_shared_nodes();
     for (Boundary &boundary : boundaries)
       if (boundary.condition.kind == BoundaryCondition::parabolic)
         measure_parabola(boundary);
@@ -96,11 +123,47 @@ namespace graupel
                                 cell->face(f)->vertex(v));
         const bool is_outlet = boundary.condition.kind == BoundaryCondition::pressure;
         for (const auto &[index, position] : found)
-          if (is_outlet || (!space.nodes.hanging_nodes.is_constrained(index) &&
-                            taken.insert(index).second))
+          if (is_outlet ||
+              (!space.nodes.hanging_nodes.is_constrained(index) &&
+               (taken.insert(index).second || boundary.condition.is_inlet())))
             boundary.nodes.push_back(
               {partitioner.global_to_local(index), index, position});
       }
+  }
+
+  void
+  FlowBoundaries::find_shared_nodes()
+  {
+    std::map<dealii::types::global_dof_index, SharedNode> found;
+    for (unsigned int n = 0; n < inlet_fluxes.size(); ++n)
+      {
+        NodalVectorField normals;
+        for (NodalVector &component : normals)
+          space.nodes.initialize(component);
+        for (const auto &point : space.boundary(inlet_fluxes[n].id))
+          for (unsigned int a = 0; a < nodes_per_cell; ++a)
+            for (unsigned int i = 0; i < 3; ++i)
+              normals[i].local_element(space.cell_nodes[point.cell][a]) +=
+                point.weight * point.value[a] * point.normal[i];
+        for (NodalVector &component : normals)
+          {
+            component.compress(dealii::VectorOperation::add);
+            component.update_ghost_values();
+          }
+        for (const Node &node : boundaries[n].nodes)
+          {
+            dealii::Tensor<1, 3> normal;
+            for (unsigned int i = 0; i < 3; ++i)
+              normal[i] = normals[i].local_element(node.local);
+            SharedNode &entry = found[node.global];
+            entry.node        = node;
+            entry.inlets.push_back(
+              {n, normal / std::max(normal.norm(), std::numeric_limits<double>::min())});
+          }
+      }
+    for (const auto &entry : found)
+      if (entry.second.inlets.size() > 1)
+        shared_nodes.push_back(entry.second);
   }
 
   void
@@ -184,7 +247,8 @@ namespace graupel
                                  const dealii::FunctionParser<3> *const function,
                                  const double                           velocity,
                                  const double                           density,
-                                 const NodalVector                     &void_fraction)
+                                 const NodalVector                     &void_fraction,
+                                 NodalVectorField                      &flux) const
   {
     const auto   kind    = boundary.condition.kind;
     const bool   by_rate = kind == BoundaryCondition::mass_flow_rate;
@@ -204,10 +268,69 @@ namespace graupel
         if (weigh_inlets)
           q *= void_fraction.local_element(node.local) / mean_alpha;
         for (unsigned int i = 0; i < 3; ++i)
+          flux[i].local_element(node.local) = q[i];
+      }
+  }
+
+  void
+  FlowBoundaries::join_inlets()
+  {
+    const auto set = [&](const Node &node, const dealii::Tensor<1, 3> &q) {
+      for (unsigned int i = 0; i < 3; ++i)
+        {
+          prescribed_flux[i].local_element(node.local) = q[i];
+          open.set_inhomogeneity(3 * node.global + i, q[i]);
+        }
+    };
+    const auto own = [&](const unsigned int inlet, const Node &node) {
+      dealii::Tensor<1, 3> q;
+      for (unsigned int i = 0; i < 3; ++i)
+        q[i] = inlet_fluxes[inlet].flux[i].local_element(node.local);
+      return q;
+    };
+    for (unsigned int n = 0; n < inlet_fluxes.size(); ++n)
+      for (const Node &node : boundaries[n].nodes)
+        set(node, own(n, node));
+    for (const SharedNode &shared : shared_nodes)
+      {
+        std::vector<dealii::Tensor<1, 3>> vectors, normals;
+        for (const auto &[inlet, normal] : shared.inlets)
           {
-            prescribed_flux[i].local_element(node.local) = q[i];
-            open.set_inhomogeneity(3 * node.global + i, q[i]);
+            vectors.push_back(own(inlet, shared.node));
+            normals.push_back(normal);
           }
+        set(shared.node, join(vectors, normals));
+      }
+  }
+
+  void
+  FlowBoundaries::prescribe_pressure(const double time, const double velocity)
+  {
+    double lowest = std::numeric_limits<double>::max(), highest = -lowest;
+    for (Outlet &outlet : outlet_pressures)
+      {
+        const Boundary &boundary = *std::find_if(
+          boundaries.begin(), boundaries.end(), [&](const Boundary &candidate) {
+            return candidate.id == outlet.id;
+          });
+        const auto function = parse(boundary.condition, velocity, time);
+        for (const Node &node : boundary.nodes)
+          {
+            const double value                        = function->value(node.position);
+            outlet.pressure.local_element(node.local) = value;
+            lowest                                    = std::min(lowest, value);
+            highest                                   = std::max(highest, value);
+          }
+      }
+    const MPI_Comm communicator = space.nodes.mesh.communicator();
+    lowest                      = dealii::Utilities::MPI::min(lowest, communicator);
+    highest                     = dealii::Utilities::MPI::max(highest, communicator);
+    reference                   = lowest <= highest ? 0.5 * (lowest + highest) : 0.;
+    for (Outlet &outlet : outlet_pressures)
+      {
+        for (unsigned int k = 0; k < outlet.pressure.locally_owned_size(); ++k)
+          outlet.pressure.local_element(k) -= reference;
+        outlet.pressure.update_ghost_values();
       }
   }
 
@@ -217,40 +340,37 @@ namespace graupel
                          const double       density,
                          const NodalVector &void_fraction)
   {
-    for (const Boundary &boundary : boundaries)
+    const auto share = [&](NodalVectorField &field) {
+      for (NodalVector &component : field)
+        {
+          space.nodes.hanging_nodes.distribute(component);
+          component.update_ghost_values();
+        }
+    };
+    for (unsigned int n = 0; n < inlet_fluxes.size(); ++n)
       {
-        const auto function = parse(boundary.condition, velocity, time);
-        if (boundary.condition.is_inlet())
-          prescribe_flux(boundary, function.get(), velocity, density, void_fraction);
-        else if (boundary.condition.kind == BoundaryCondition::pressure)
-          for (const Node &node : boundary.nodes)
-            prescribed_pressure.local_element(node.local) =
-              function->value(node.position);
+        const auto function = parse(boundaries[n].condition, velocity, time);
+        prescribe_flux(boundaries[n],
+                       function.get(),
+                       velocity,
+                       density,
+                       void_fraction,
+                       inlet_fluxes[n].flux);
+        share(inlet_fluxes[n].flux);
       }
-    for (NodalVector &component : prescribed_flux)
-      {
-        space.nodes.hanging_nodes.distribute(component);
-        component.update_ghost_values();
-      }
+    join_inlets();
+    share(prescribed_flux);
+    prescribe_pressure(time, velocity);
     closed.copy_from(open);
     closed.close();
   }
 
-  double
-  FlowBoundaries::throughput() const
+  BoundaryCondition::Kind
+  FlowBoundaries::kind(const dealii::types::boundary_id id) const
   {
-    double sum = 0.;
-    for (const auto id : inlet_ids)
-      for (const auto &point : space.boundary(id))
-        {
-          double normal_flux = 0.;
-          for (unsigned int a = 0; a < nodes_per_cell; ++a)
-            for (unsigned int i = 0; i < 3; ++i)
-              normal_flux +=
-                point.normal[i] * point.value[a] *
-                prescribed_flux[i].local_element(space.cell_nodes[point.cell][a]);
-          sum += point.weight * std::abs(normal_flux);
-        }
-    return dealii::Utilities::MPI::sum(sum, space.nodes.mesh.communicator());
+    for (const Boundary &boundary : boundaries)
+      if (boundary.id == id)
+        return boundary.condition.kind;
+    return BoundaryCondition::slip;
   }
 } // namespace graupel

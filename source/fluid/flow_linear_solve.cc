@@ -1,7 +1,10 @@
+#include <graupel/base/parameters.h>
 #include <graupel/fluid/flow_solver.h>
 
 #include <deal.II/lac/solver_control.h>
 #include <deal.II/lac/solver_gmres.h>
+
+#include <sstream>
 
 namespace graupel
 {
@@ -9,13 +12,20 @@ namespace graupel
   {
     // Rounds of a solve with a tighter tolerance until the mass balance holds.
     constexpr unsigned int mass_rounds = 8;
+    // A residual of the linear system below this part of it is round-off [-].
+    constexpr double linear_round_off = 1e-14;
+    // Of the volume that the voids have: what the void fraction is exact to [-].
+    constexpr double void_round_off = 1e-13;
+
+    constexpr unsigned int failed = dealii::numbers::invalid_unsigned_int;
   } // namespace
 
   unsigned int
   FlowSolver::solve()
   {
-    const bool stale = last_iterations > 1.5 * fresh_iterations + 5. ||
-                       std::abs(scheme.now - preconditioned_rate) > 0.2 * scheme.now;
+    if (is_closed())
+      balance_closed_vessel();
+    const bool stale = is_stale();
     if (stale)
       refresh_preconditioner();
     double tolerance = std::max(parameters.linear_tolerance * rhs.l2_norm(),
@@ -23,17 +33,79 @@ namespace graupel
     if (!std::isfinite(tolerance))
       throw SolverFailure("The flow's equations have values that are not finite: is the "
                           "flux or the pressure of a boundary condition?");
-    last_iterations = solve_to(tolerance);
-    for (unsigned int round = 1;
-         round < mass_rounds && mass_error() > parameters.mass_tolerance * throughput;
-         ++round)
+    last_iterations = 0;
+    for (unsigned int round = 0;; ++round)
       {
+        const unsigned int iterations = solve_to(tolerance);
+        if (iterations == failed && round == 0)
+          throw SolverFailure(
+            "The linear solver of the flow did not reach its tolerance within " +
+            std::to_string(parameters.maximum_iterations) +
+            " iterations. Try a smaller Flow/time step, or more \"Flow solver/maximum "
+            "iterations\".");
+        scale = flow_scale();
+        if (iterations != failed)
+          last_iterations += iterations;
+        if (mass_error() <= parameters.mass_tolerance * scale)
+          break;
+        if (iterations == failed || round + 1 == mass_rounds)
+          fail_mass_balance();
         tolerance *= 0.03;
-        last_iterations += solve_to(tolerance);
       }
     if (stale)
       fresh_iterations = last_iterations;
     return last_iterations;
+  }
+
+  void
+  FlowSolver::fail_mass_balance()
+  {
+    matrix.vmult(residual, solution);
+    residual.sadd(-1., 1., rhs);
+    const bool at_round_off = residual.l2_norm() <= linear_round_off * rhs.l2_norm();
+    std::ostringstream text;
+    text << "The mass balance of the flow is off by " << relative_to_flow(mass_error())
+         << " of the flow, above \"Flow solver/mass tolerance\" = "
+         << parameters.mass_tolerance << ", ";
+    if (at_round_off)
+      text << "with the linear solver at round-off. Only a larger tolerance can be met.";
+    else
+      text << "and the linear solver gets no further. Try a smaller Flow/time step, or "
+              "more \"Flow solver/maximum iterations\".";
+    throw SolverFailure(text.str());
+  }
+
+  void
+  FlowSolver::balance_closed_vessel()
+  {
+    const double gained = surplus();
+    if (std::abs(gained) > std::max(parameters.mass_tolerance * flow_scale(),
+                                    void_round_off * scheme.now * volume))
+      {
+        std::ostringstream text;
+        text << "no boundary has a pressure, so that as much must leave as enters, but "
+             << std::abs(gained) << " m^3/s too " << (gained > 0. ? "much" : "little")
+             << " enters, with the rate at which the solids take up room; give one "
+                "boundary a pressure (\"pressure 0\" at the top is usual)";
+        throw InputError("Boundary conditions", text.str());
+      }
+    // Pressures that differ by a constant solve alike, if the sum of all rows is 0 = 0.
+    double sum = 0.;
+    for (unsigned int k = 0; k < rhs.block(1).locally_owned_size(); ++k)
+      sum += rhs.block(1).local_element(k);
+    sum = dealii::Utilities::MPI::sum(sum, nodes.mesh.communicator());
+    for (unsigned int k = 0; k < rhs.block(1).locally_owned_size(); ++k)
+      rhs.block(1).local_element(k) -= sum * nodes.measure().local_element(k) / volume;
+  }
+
+  void
+  FlowSolver::level_pressure()
+  {
+    double sum = 0.;
+    for (unsigned int k = 0; k < solution.block(1).locally_owned_size(); ++k)
+      sum += nodes.measure().local_element(k) * solution.block(1).local_element(k);
+    solution.block(1).add(-dealii::Utilities::MPI::sum(sum, nodes.mesh.communicator()) /
+                          volume);
   }
 
   double
@@ -46,11 +118,18 @@ namespace graupel
     return residual.block(1).linfty_norm();
   }
 
+  bool
+  FlowSolver::is_stale() const
+  {
+    return !recipe || last_iterations > 1.5 * fresh_iterations + 5. ||
+           std::abs(scheme.now - recipe->rate) > 0.2 * scheme.now;
+  }
+
   void
   FlowSolver::refresh_preconditioner()
   {
     preconditioner.refresh(matrix, schur);
-    preconditioned_rate = scheme.now;
+    built = recipe = std::make_shared<const Recipe>(assembled);
   }
 
   unsigned int
@@ -63,21 +142,24 @@ namespace graupel
     const unsigned int patience =
       std::min(parameters.maximum_iterations, std::max(50u, 3 * fresh_iterations));
     unsigned int iterations = iterate(tolerance, patience);
-    if (iterations == dealii::numbers::invalid_unsigned_int)
+    if (iterations == failed)
       {
         refresh_preconditioner();
         iterations = iterate(tolerance, parameters.maximum_iterations);
-        if (iterations == dealii::numbers::invalid_unsigned_int)
-          throw SolverFailure(
-            "The linear solver of the flow did not reach its tolerance within " +
-            std::to_string(parameters.maximum_iterations) +
-            " iterations. Try a smaller Flow/time step, or more \"Flow solver/maximum "
-            "iterations\".");
-        iterations += patience;
+        if (iterations != failed)
+          iterations += patience;
       }
     worst_node = node_error();
+    if (is_closed())
+      level_pressure();
     boundaries.constraints().distribute(solution);
     solution.update_ghost_values();
+    for (unsigned int i = 0; i < 3; ++i)
+      {
+        for (unsigned int k = 0; k < latest[i].locally_owned_size(); ++k)
+          latest[i].local_element(k) = solution.block(0).local_element(3 * k + i);
+        latest[i].update_ghost_values();
+      }
     return iterations;
   }
 
@@ -93,7 +175,7 @@ namespace graupel
       }
     catch (const dealii::SolverControl::NoConvergence &)
       {
-        return dealii::numbers::invalid_unsigned_int;
+        return failed;
       }
     return control.last_step();
   }

@@ -70,19 +70,27 @@ namespace graupel
     , cell_rhs(unknowns_per_node * nodes_per_cell)
   {
     for (NodalVectorField *field :
-         {&flux_now, &flux_old, &history, &carrier, &outlet_traction})
+         {&flux_now, &flux_old, &flux_history, &carrier, &latest, &outlet_traction})
       {
         for (NodalVector &component : *field)
           nodes.initialize(component);
         update_ghosts(*field);
       }
-    for (NodalVector *vector : {&pressure_now, &alpha_old, &alpha_older, &alpha_rate})
+    for (NodalVector *vector :
+         {&pressure_now, &relative_pressure, &alpha_old, &alpha_older, &alpha_rate})
       {
         nodes.initialize(*vector);
         vector->update_ghost_values();
       }
     unresolved_now.resize(space.shapes.size());
     unresolved_old.resize(space.shapes.size());
+    for (unsigned int k = 0; k < nodes.measure().locally_owned_size(); ++k)
+      volume += nodes.measure().local_element(k);
+    volume    = dealii::Utilities::MPI::sum(volume, nodes.mesh.communicator());
+    alpha_old = 1.;
+    alpha_old.update_ghost_values();
+    assembled.carrier = assembled.solids = flux_now;
+    assembled.void_fraction = assembled.drag = alpha_old;
     prepare_matrices();
   }
 
@@ -106,7 +114,6 @@ namespace graupel
   FlowSolver::set_superficial_velocity(const double velocity)
   {
     superficial_velocity = velocity;
-    known_media          = std::min(known_media, 1u);
   }
 
   void
@@ -127,9 +134,7 @@ namespace graupel
     const bool second = parameters.time_scheme == "bdf2" && known_media >= 2 &&
                         std::isfinite(step) && std::isfinite(last_step);
     scheme          = second ? bdf2(step, last_step) : bdf1(step);
-    subscale_scheme = known_unresolved == 0   ? TimeScheme()
-                      : known_unresolved == 1 ? bdf1(step)
-                                              : scheme;
+    subscale_scheme = known_unresolved >= 2 ? scheme : bdf1(step);
     if (known_media == 0)
       alpha_old = medium.void_fraction;
     alpha_rate = 0.; // of solids, the flux comes in its place
@@ -143,12 +148,12 @@ namespace graupel
     const double ratio = second ? step / last_step : 0.;
     for (unsigned int i = 0; i < 3; ++i)
       {
-        history[i].equ(scheme.old, flux_now[i]);
-        history[i].add(scheme.older, flux_old[i]);
+        flux_history[i].equ(scheme.old, flux_now[i]);
+        flux_history[i].add(scheme.older, flux_old[i]);
         carrier[i].equ(1. + ratio, flux_now[i]);
         carrier[i].add(-ratio, flux_old[i]);
       }
-    update_ghosts(history);
+    update_ghosts(flux_history);
     update_ghosts(carrier);
   }
 
@@ -156,62 +161,90 @@ namespace graupel
   FlowSolver::step(const Medium &medium, const double step)
   {
     const CostSheet::Scope timing(costs, CostSheet::fluid);
-    const double           next_time = std::isfinite(step) ? now + step : now;
-    prepare_rates(medium, step);
-    boundaries.update(next_time, superficial_velocity, density, medium.void_fraction);
-    throughput = std::max(boundaries.throughput(), std::numeric_limits<double>::min());
-
-    Report report;
+    const FlowHistory      before        = history();
+    const auto             recipe_before = recipe;
+    const double           next_time     = std::isfinite(step) ? now + step : now;
+    Report                 report;
     try
       {
-        do
+        prepare_rates(medium, step);
+        if (built != recipe && !is_stale())
           {
-            assemble(medium);
-            report.iterations += solve();
-            report.change = take_carrier();
-            ++report.nonlinear_iterations;
+            rebuild_preconditioner(medium.shares_pressure);
+            prepare_rates(medium, step);
           }
-        while (report.change > parameters.nonlinear_tolerance &&
-               report.nonlinear_iterations < parameters.nonlinear_iterations);
-        if (parameters.nonlinear_iterations > 1 &&
-            !(report.change <= parameters.nonlinear_tolerance))
-          throw SolverFailure("The flow did not reach its nonlinear tolerance within " +
-                              std::to_string(parameters.nonlinear_iterations) +
-                              " nonlinear iterations.");
+        boundaries.update(next_time, superficial_velocity, density, medium.void_fraction);
+        report = solve_nonlinear(medium);
       }
-    catch (const SolverFailure &)
+    catch (...)
       {
         restore_solution();
+        recipe           = recipe_before;
+        fresh_iterations = before.fresh_iterations;
+        last_iterations  = before.last_iterations;
+        if (known_media > 0)
+          boundaries.update(now, last_velocity, density, alpha_old);
         throw;
       }
-    report.mass_imbalance       = mass_error() / throughput;
-    report.worst_node_imbalance = worst_node / throughput;
-    flux_old                    = flux_now;
-    publish();
+    report.flow_scale           = scale;
+    report.mass_imbalance       = relative_to_flow(mass_error());
+    report.worst_node_imbalance = relative_to_flow(worst_node);
+    now                         = next_time;
+    keep_history(medium, step);
     find_worst_cell(medium, report);
+    return report;
+  }
+
+  FlowSolver::Report
+  FlowSolver::solve_nonlinear(const Medium &medium)
+  {
+    Report report;
+    do
+      {
+        assemble(medium);
+        report.iterations += solve();
+        report.change = take_carrier();
+        ++report.nonlinear_iterations;
+      }
+    while (report.change > parameters.nonlinear_tolerance &&
+           report.nonlinear_iterations < parameters.nonlinear_iterations);
+    if (parameters.nonlinear_iterations > 1 &&
+        !(report.change <= parameters.nonlinear_tolerance))
+      throw SolverFailure("The flow did not reach its nonlinear tolerance within " +
+                          std::to_string(parameters.nonlinear_iterations) +
+                          " nonlinear iterations.");
+    return report;
+  }
+
+  void
+  FlowSolver::keep_history(const Medium &medium, const double step)
+  {
+    flux_old = flux_now;
+    publish();
     update_unresolved(medium);
-    alpha_older = alpha_old;
-    alpha_old   = medium.void_fraction;
-    last_step   = step;
-    now         = next_time;
+    alpha_older   = alpha_old;
+    alpha_old     = medium.void_fraction;
+    last_step     = step;
+    last_velocity = superficial_velocity;
     ++known_media;
     ++costs.fluid_steps;
-    return report;
   }
 
   double
   FlowSolver::take_carrier()
   {
     double change = 0., size = 0.;
-    for (unsigned int k = 0; k < pressure_now.locally_owned_size(); ++k)
-      for (unsigned int i = 0; i < 3; ++i)
-        {
-          const double q = solution.block(0).local_element(3 * k + i);
-          double      &c = carrier[i].local_element(k);
-          change += (q - c) * (q - c);
-          size += q * q;
-          c = q;
-        }
+    for (unsigned int i = 0; i < 3; ++i)
+      {
+        for (unsigned int k = 0; k < latest[i].locally_owned_size(); ++k)
+          {
+            const double q = latest[i].local_element(k);
+            const double c = carrier[i].local_element(k);
+            change += (q - c) * (q - c);
+            size += q * q;
+          }
+        carrier[i] = latest[i];
+      }
     update_ghosts(carrier);
     change = dealii::Utilities::MPI::sum(change, nodes.mesh.communicator());
     size   = dealii::Utilities::MPI::sum(size, nodes.mesh.communicator());
@@ -221,13 +254,13 @@ namespace graupel
   void
   FlowSolver::restore_solution()
   {
+    latest = flux_now;
     for (unsigned int k = 0; k < pressure_now.locally_owned_size(); ++k)
       {
         for (unsigned int i = 0; i < 3; ++i)
           solution.block(0).local_element(3 * k + i) = flux_now[i].local_element(k);
-        solution.block(1).local_element(k) = pressure_now.local_element(k);
+        solution.block(1).local_element(k) = relative_pressure.local_element(k);
       }
-    preconditioned_rate = -1.; // never trust that one again
   }
 
   void
@@ -235,27 +268,38 @@ namespace graupel
                             const NodalVector      &pressure,
                             const NodalVector      &void_fraction)
   {
-    for (unsigned int i = 0; i < 3; ++i)
-      flux_now[i] = flux[i];
+    flux_now = flux;
     update_ghosts(flux_now);
-    pressure_now = pressure;
-    pressure_now.update_ghost_values();
+    alpha_old     = void_fraction;
+    last_velocity = superficial_velocity;
+    boundaries.update(now, last_velocity, density, alpha_old);
+    for (unsigned int k = 0; k < pressure.locally_owned_size(); ++k)
+      relative_pressure.local_element(k) =
+        pressure.local_element(k) - boundaries.reference_pressure();
+    relative_pressure.update_ghost_values();
+    level_published_pressure();
     restore_solution();
-    alpha_old        = void_fraction;
     known_media      = 1;
     known_unresolved = 0;
+    std::fill(unresolved_now.begin(), unresolved_now.end(), dealii::Tensor<1, 3>());
+  }
+
+  void
+  FlowSolver::level_published_pressure()
+  {
+    for (unsigned int k = 0; k < pressure_now.locally_owned_size(); ++k)
+      pressure_now.local_element(k) =
+        boundaries.reference_pressure() + relative_pressure.local_element(k);
+    pressure_now.update_ghost_values();
   }
 
   void
   FlowSolver::publish()
   {
+    flux_now = latest;
     for (unsigned int k = 0; k < pressure_now.locally_owned_size(); ++k)
-      {
-        for (unsigned int i = 0; i < 3; ++i)
-          flux_now[i].local_element(k) = solution.block(0).local_element(3 * k + i);
-        pressure_now.local_element(k) = solution.block(1).local_element(k);
-      }
-    update_ghosts(flux_now);
-    pressure_now.update_ghost_values();
+      relative_pressure.local_element(k) = solution.block(1).local_element(k);
+    relative_pressure.update_ghost_values();
+    level_published_pressure();
   }
 } // namespace graupel

@@ -90,13 +90,13 @@ namespace graupel
   void
   FlowSpace::store_faces()
   {
-    dealii::FEFaceValues<3> values(nodes.mesh.mapping(),
-                                   nodes.fe,
-                                   dealii::QGauss<2>(2),
-                                   dealii::update_values | dealii::update_JxW_values |
-                                     dealii::update_normal_vectors |
-                                     dealii::update_quadrature_points);
-    unsigned int            number = 0;
+    dealii::FEFaceValues<3> values(
+      nodes.mesh.mapping(),
+      nodes.fe,
+      dealii::QGauss<2>(2),
+      dealii::update_values | dealii::update_gradients | dealii::update_JxW_values |
+        dealii::update_normal_vectors | dealii::update_quadrature_points);
+    unsigned int number = 0;
     for (const auto &cell : nodes.dof_handler.active_cell_iterators())
       if (cell->is_locally_owned())
         {
@@ -112,7 +112,10 @@ namespace graupel
                     point.cell     = number;
                     point.weight   = values.JxW(q);
                     for (unsigned int a = 0; a < nodes_per_cell; ++a)
-                      point.value[a] = values.shape_value(a, q);
+                      {
+                        point.value[a]    = values.shape_value(a, q);
+                        point.gradient[a] = values.shape_grad(a, q);
+                      }
                     faces[cell->face(f)->boundary_id()].push_back(point);
                   }
               }
@@ -126,6 +129,24 @@ namespace graupel
     static const std::vector<FacePoint> none;
     const auto                          found = faces.find(id);
     return found == faces.end() ? none : found->second;
+  }
+
+  double
+  FlowSpace::value(const FacePoint &point, const NodalVector &field) const
+  {
+    double result = 0.;
+    for (unsigned int a = 0; a < nodes_per_cell; ++a)
+      result += point.value[a] * field.local_element(cell_nodes[point.cell][a]);
+    return result;
+  }
+
+  double
+  FlowSpace::normal_component(const FacePoint &point, const NodalVectorField &field) const
+  {
+    double result = 0.;
+    for (unsigned int i = 0; i < 3; ++i)
+      result += point.normal[i] * value(point, field[i]);
+    return result;
   }
 
   void

@@ -27,16 +27,31 @@ struct Column
 {
   using Field = std::function<double(const dealii::Point<3> &)>;
 
-  Column(const Cylinder       &cylinder,
-         const FlowParameters &parameters,
-         const double          cell_size,
-         const double          density,
-         const double          viscosity)
+  // @p refined: which cells are halved once.
+  Column(const Cylinder                                      &cylinder,
+         const FlowParameters                                &parameters,
+         const double                                         cell_size,
+         const double                                         density,
+         const double                                         viscosity,
+         const std::function<bool(const dealii::Point<3> &)> &refined = nullptr)
     : mesh(cylinder, {cell_size, 0.}, MPI_COMM_WORLD)
-    , nodes(mesh)
+    , nodes(refine(mesh, refined))
     , flow(parameters, density, viscosity, nodes, costs)
     , medium(nodes)
   {
+  }
+
+  static const VesselMesh &
+  refine(VesselMesh &mesh, const std::function<bool(const dealii::Point<3> &)> &refined)
+  {
+    if (!refined)
+      return mesh;
+    for (const auto &cell : mesh.triangulation().active_cell_iterators())
+      if (cell->is_locally_owned() && refined(cell->center()))
+        cell->set_refine_flag();
+    mesh.prepare_adaption();
+    mesh.adapt([](const auto &, const auto) { return 1000u; });
+    return mesh;
   }
 
   void

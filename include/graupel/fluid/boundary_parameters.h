@@ -60,8 +60,8 @@ namespace graupel
 
     /** Declares the section "Boundary conditions". */
     void declare(dealii::ParameterHandler &prm);
-    /** Throws InputError where a condition cannot be read or no boundary lets the fluid
-     * out. */
+    /** Throws InputError where a condition cannot be read, or fluid enters and no
+     * boundary can let it out. A vessel without inlets may be closed. */
     void check() const;
 
     /** By name. */
@@ -70,7 +70,7 @@ namespace graupel
     /**
      * By id, for the boundaries of a mesh by name: what has no condition of its own is as
      * the wall. Throws InputError for the condition of a boundary that the mesh does not
-     * have, and where the fluid cannot leave.
+     * have, and as check() for those that it has.
      */
     std::map<dealii::types::boundary_id, BoundaryCondition> by_id(
       const std::map<std::string, dealii::types::boundary_id> &boundaries) const;

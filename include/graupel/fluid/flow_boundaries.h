@@ -14,6 +14,11 @@ namespace graupel
    * The boundary conditions on the nodes: which flux and which pressure they
    * prescribe now, and the linear constraints that follow for the flow's
    * unknowns (hanging nodes included).
+   *
+   * Each inlet keeps the flux that it prescribes itself, which the continuity equation
+   * takes: what enters through it is what it says, also where it meets a wall or another
+   * inlet. A node that several inlets share has the normal component of each, so far as
+   * their normals differ, and the mean of their vectors else.
    */
   class FlowBoundaries
   {
@@ -43,36 +48,53 @@ namespace graupel
       return closed;
     }
 
-    /** Prescribed flux at the nodes of inlets, elsewhere 0 [m/s]; ghosts up to date. */
+    /** A boundary whose flux is prescribed. */
+    struct Inlet
+    {
+      dealii::types::boundary_id id;
+      /** The flux that this boundary prescribes, at its nodes [m/s]; ghosts up to date.
+       */
+      NodalVectorField flux;
+    };
+
+    const std::vector<Inlet> &
+    inlets() const
+    {
+      return inlet_fluxes;
+    }
+
+    /** Flux at the nodes of all inlets, elsewhere 0 [m/s]; ghosts up to date. */
     const NodalVectorField &
     flux() const
     {
       return prescribed_flux;
     }
 
-    /** Prescribed pressure at the nodes of outlets, elsewhere 0 [Pa]; ghosts up to date.
-     */
-    const NodalVector &
-    pressure() const
+    /** A boundary whose pressure is prescribed. */
+    struct Outlet
     {
-      return prescribed_pressure;
-    }
+      dealii::types::boundary_id id;
+      /** The pressure that this boundary prescribes, at its nodes, minus
+       * reference_pressure() [Pa]; ghosts up to date. */
+      NodalVector pressure;
+    };
 
-    /** Ids of the boundaries with a flux, and with a pressure. */
-    const std::vector<dealii::types::boundary_id> &
-    inlets() const
-    {
-      return inlet_ids;
-    }
-    const std::vector<dealii::types::boundary_id> &
+    const std::vector<Outlet> &
     outlets() const
     {
-      return outlet_ids;
+      return outlet_pressures;
     }
 
-    /** Volume that enters through the inlets, counted without sign [m^3/s]. Collective.
-     */
-    double throughput() const;
+    /** The middle of the prescribed pressures, 0 without: the flow depends on differences
+     * to it only [Pa]. */
+    double
+    reference_pressure() const
+    {
+      return reference;
+    }
+
+    /** What holds on the boundary @p id. */
+    BoundaryCondition::Kind kind(const dealii::types::boundary_id id) const;
 
   private:
     struct Node
@@ -86,7 +108,7 @@ namespace graupel
     {
       dealii::types::boundary_id id;
       BoundaryCondition          condition;
-      // Those that no earlier boundary has taken.
+      // Without the hanging ones on inlets; on walls, those that no inlet has.
       std::vector<Node>    nodes;
       double               area = 0.;
       dealii::Point<3>     center;
@@ -96,7 +118,15 @@ namespace graupel
       double parabola_mean = 1.;
     };
 
+    // A node of several inlets: the numbers of these, and their normals there.
+    struct SharedNode
+    {
+      Node                                                       node;
+      std::vector<std::pair<unsigned int, dealii::Tensor<1, 3>>> inlets;
+    };
+
     void   find_nodes();
+    void   find_shared_nodes();
     void   measure(Boundary &boundary) const;
     void   make_template();
     void   measure_parabola(Boundary &boundary) const;
@@ -105,16 +135,21 @@ namespace graupel
                           const dealii::FunctionParser<3> *const function,
                           const double                           velocity,
                           const double                           density,
-                          const NodalVector                     &void_fraction);
+                          const NodalVector                     &void_fraction,
+                          NodalVectorField                      &flux) const;
+    void   join_inlets();
+    void   prescribe_pressure(const double time, const double velocity);
 
-    const FlowSpace      &space;
-    const bool            weigh_inlets;
-    std::vector<Boundary> boundaries; // inlets, then no-slip walls, then the others
-    std::vector<dealii::types::boundary_id> inlet_ids, outlet_ids;
+    const FlowSpace        &space;
+    const bool              weigh_inlets;
+    std::vector<Boundary>   boundaries;   // inlets, then no-slip walls, then the others
+    std::vector<Inlet>      inlet_fluxes; // as the first of them
+    std::vector<SharedNode> shared_nodes;
+    std::vector<Outlet>     outlet_pressures;
 
     dealii::AffineConstraints<double> open, closed;
     NodalVectorField                  prescribed_flux;
-    NodalVector                       prescribed_pressure;
+    double                            reference = 0.;
   };
 } // namespace graupel
 

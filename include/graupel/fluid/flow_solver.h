@@ -4,6 +4,7 @@
 #include <graupel/base/cost_sheet.h>
 #include <graupel/fluid/cell_scatter.h>
 #include <graupel/fluid/flow_boundaries.h>
+#include <graupel/fluid/flow_history.h>
 #include <graupel/fluid/flow_parameters.h>
 #include <graupel/fluid/time_scheme.h>
 
@@ -74,9 +75,20 @@ namespace graupel
    * step (BDF1), about the one extrapolated from the last two (BDF2), or repeated
    * until it no longer changes ("nonlinear iterations").
    *
-   * Pressures are prescribed weakly, with backflow stabilisation. Summed over all
-   * test functions the continuity equation says inflow = outflow + stored, to the
-   * tolerance of the linear solver.
+   * Pressures are prescribed weakly: on the boundary the fluid has the static pressure
+   * that is given, also where it enters and brings its momentum along. What comes back
+   * through a boundary that more leaves than enters, as a vortex does, enters without
+   * momentum. With q the flux, Q+ and Q- the volumes that leave and enter through the
+   * whole boundary, and n its outward normal, the momentum equation has there
+   *
+   *   -psi w p n = -psi w p_prescribed n - psi rho min(1, Q+ / Q-) max(0, -q n) u.
+   *
+   * With the factor 1 it is the backflow stabilisation of Moghadam, Bazilevs et al.
+   * (2011), doi:10.1007/s00466-011-0599-0.
+   *
+   * Summed over all test functions the continuity equation says inflow = outflow +
+   * stored, to the tolerance of the linear solver. In a vessel without a prescribed
+   * pressure the mean of the pressure over the vessel is 0.
    */
   class FlowSolver
   {
@@ -90,12 +102,14 @@ namespace graupel
       unsigned int nonlinear_iterations = 0;
       /** Last change of the flux, |q - linearised about| / |q| [-]. */
       double change = 0.;
-      /** |inflow - outflow - stored| / inflow [-]. */
+      /** The flow that imbalances are relative to, see flow_scale() [m^3/s]. */
+      double flow_scale = 0.;
+      /** |inflow - outflow - stored| / flow scale [-]. */
       double mass_imbalance = 0.;
       /** Largest residual of the discrete continuity equation at one node, over
-       * the inflow [-]. */
+       * the flow scale [-]. */
       double worst_node_imbalance = 0.;
-      /** Largest |integral of div q + d(alpha)/dt| of one cell over the inflow: a
+      /** Largest |integral of div q + d(alpha)/dt| of one cell over the flow scale: a
        * discretisation error [-]. */
       double worst_cell_imbalance = 0.;
       /** Where that is [m]. */
@@ -135,7 +149,8 @@ namespace graupel
      * The rate of the void fraction is that of its solids or, without these, taken from
      * this and the last media by the same formula as the acceleration. With the step
      * FlowSolver::steady all rates are 0: one linear solve towards the steady state.
-     * Throws SolverFailure where a solve does not converge, and then is as it was before.
+     * Throws SolverFailure where a solve does not converge, and then is as it was before;
+     * InputError where a vessel without a prescribed pressure cannot hold what flows in.
      */
     Report step(const Medium &medium, const double step);
 
@@ -148,6 +163,27 @@ namespace graupel
                        const NodalVector      &pressure,
                        const NodalVector      &void_fraction);
 
+    /** Writes the mesh and all fields that the next step depends on to files whose names
+     * begin with @p file. Collective. */
+    void save(const std::string &file) const;
+
+    /** What belongs to these fields. */
+    FlowHistory history() const;
+
+    /**
+     * Goes on from the fields of save(), on the mesh that VesselMesh has loaded from the
+     * same file, and from their @p history. On the same ranks the next steps are the same
+     * bit by bit as if nothing had been in between. Collective.
+     */
+    void restore(const FlowHistory &history);
+
+    /** alpha of the last step, 1 before the first [-], ghosts up to date. */
+    const NodalVector &
+    void_fraction() const
+    {
+      return alpha_old;
+    }
+
     /** q [m/s], ghosts up to date. */
     const NodalVectorField &
     flux() const
@@ -155,7 +191,8 @@ namespace graupel
       return flux_now;
     }
 
-    /** p without its hydrostatic part, relative to the outlet [Pa], ghosts up to date. */
+    /** p without its hydrostatic part, on the level of the prescribed pressures [Pa],
+     * ghosts up to date. */
     const NodalVector &
     pressure() const
     {
@@ -168,23 +205,59 @@ namespace graupel
      */
     NodalVectorField pressure_gradient() const;
 
-    /** Mean pressure over a boundary [Pa]. */
+    /** Mean pressure over a boundary: of the prescribed one where there is one, since it
+     * acts there; the solution's differs by the error of the mesh [Pa]. */
     double mean_pressure(const dealii::types::boundary_id boundary) const;
 
-    /** Volume that leaves through the outlets [m^3/s]. */
+    /** Integral of the pressure gradient that the fluid and the solids share out among
+     * them, from the fields and the boundary conditions alone [N]. */
+    dealii::Tensor<1, 3> pressure_force() const;
+
+    /** Pressure and viscous force of the fluid on a boundary; on one that slips there is
+     * no viscous force [N]. */
+    dealii::Tensor<1, 3> force_on(const dealii::types::boundary_id boundary) const;
+
+    /** Area of a boundary [m^2]. */
+    double boundary_area(const dealii::types::boundary_id boundary) const;
+
+    /** Volume that leaves through a boundary, as the continuity equation has it: what an
+     * inlet prescribes, what the solution has where a pressure is prescribed, else 0
+     * [m^3/s]. */
+    double flow_through(const dealii::types::boundary_id boundary) const;
+
+    /** Volume that enters through all boundaries below the height @p z [m], and so passes
+     * this height upwards where nothing is stored below [m^3/s]. */
+    double flow_below(const double z) const;
+
+    /** Volume that leaves through the outlets, where a pressure is prescribed [m^3/s]. */
     double outflow() const;
 
-    /** Volume that enters through the inlets [m^3/s]. */
-    double
-    inflow() const
+    /** Volume that enters through the inlets, where a flux is prescribed [m^3/s]. */
+    double inflow() const;
+
+    /** Whether no boundary has a prescribed pressure. */
+    bool
+    is_closed() const
     {
-      return throughput;
+      return boundaries.outlets().empty();
     }
 
     /** Largest |u| / h of a cell: the Courant number over the step [1/s]. */
     double courant_rate() const;
 
   private:
+    // What a matrix is made of, beside the mesh and what does not change in a run.
+    struct Recipe
+    {
+      double           rate = 0., subscale_rate = 0., speed = 0.;
+      NodalVector      void_fraction, drag;
+      NodalVectorField carrier;
+      /** Whether solids move, and of these what the matrix has: by_velocity, by_gradient
+       * and pressure_share of MovingSolids. */
+      bool             has_solids = false;
+      NodalVectorField solids;
+    };
+
     void                 prepare_matrices();
     void                 prepare_rates(const Medium &medium, const double step);
     CellState            gather(const unsigned int cell, const Medium &medium) const;
@@ -193,21 +266,63 @@ namespace graupel
     dealii::Tensor<1, 3> subscale_history(const unsigned int point) const;
     void                 update_unresolved(const Medium &medium);
     void                 assemble(const Medium &medium);
+    void                 assemble_system(const Medium &medium);
     void                 assemble_inlets();
     void                 assemble_outlets(const Medium &medium);
-    void                 add_nodal_drag(const Medium &medium);
-    void                 assemble_schur(const Medium &medium);
-    unsigned int         solve();
-    unsigned int         solve_to(const double tolerance);
+    // Of what enters through an outlet, the part that comes back: Q+ / Q-, at most 1.
+    double       returning_share(const dealii::types::boundary_id outlet) const;
+    void         assemble_outlet_point(const FlowBoundaries::Outlet &outlet,
+                                       const FlowSpace::FacePoint   &point,
+                                       const double                  returning,
+                                       const Medium                 &medium);
+    void         add_nodal_drag(const Medium &medium);
+    void         assemble_schur(const Medium &medium);
+    unsigned int solve();
+    // invalid_unsigned_int where a fresh preconditioner does not help either.
+    unsigned int solve_to(const double tolerance);
+    void         balance_closed_vessel();
+    void         level_pressure();
     // Iterations, or invalid_unsigned_int after @p maximum of them.
     unsigned int iterate(const double tolerance, const unsigned int maximum);
+    bool         is_stale() const;
     void         refresh_preconditioner();
-    double       mass_error() const;
-    double       node_error();
-    void         find_worst_cell(const Medium &medium, Report &report) const;
-    double       take_carrier();
-    void         restore_solution();
-    void         publish();
+    void         rebuild_preconditioner(const bool shares_pressure);
+    // Volume that enters minus what leaves and is stored, by the latest flux [m^3/s].
+    double surplus() const;
+    double
+    mass_error() const
+    {
+      return std::abs(surplus());
+    }
+    [[noreturn]] void fail_mass_balance();
+    // 0 where nothing flows.
+    double
+    relative_to_flow(const double flow) const
+    {
+      return scale > 0. ? flow / scale : 0.;
+    }
+    /**
+     * The flow of a step: the largest of what crosses the inlets, what crosses the
+     * outlets, either way, what is stored, and the largest flux times the mean section;
+     * at least so much that "mass tolerance" of it is above round-off [m^3/s].
+     */
+    double flow_scale() const;
+    double round_off() const;
+    double node_error();
+    void   find_worst_cell(const Medium &medium, Report &report) const;
+    // On a boundary, minus the reference_pressure().
+    const NodalVector &boundary_pressure(const dealii::types::boundary_id boundary) const;
+    // Integral of psi_k n times the prescribed pressure over the outlets [N].
+    NodalVectorField     outlet_forces() const;
+    dealii::Tensor<1, 3> viscous_traction(const FlowSpace::FacePoint &point) const;
+    Report               solve_nonlinear(const Medium &medium);
+    double               take_carrier();
+    void                 restore_solution();
+    void                 level_published_pressure();
+    void                 publish();
+    void                 keep_history(const Medium &medium, const double step);
+    std::vector<char>    pack_unresolved(const unsigned int cell) const;
+    void unpack_unresolved(const unsigned int cell, const char *const bytes);
 
     const FlowParameters parameters;
     const double         density;
@@ -218,7 +333,9 @@ namespace graupel
     FlowBoundaries       boundaries;
 
     double           superficial_velocity = 0.;
-    double           throughput           = 0.; // inflow, never 0 [m^3/s]
+    double           last_velocity        = 0.; // of the last step
+    double           volume               = 0.; // of the vessel [m^3]
+    double           scale                = 0.; // flow_scale() of the step [m^3/s]
     double           now                  = 0.; // time of the flux [s]
     double           fastest              = 0.; // largest speed [m/s]
     NodalVectorField outlet_traction;
@@ -227,25 +344,30 @@ namespace graupel
     dealii::TrilinosWrappers::SparseMatrix      schur;
     std::unique_ptr<CellScatter>                scatter;
     BlockPreconditioner                         preconditioner;
-    unsigned int                                fresh_iterations    = 0;
-    unsigned int                                last_iterations     = 0;
-    double                                      preconditioned_rate = -1.;
-    BlockVector                                 solution, rhs, residual;
-    dealii::FullMatrix<double>                  cell_matrix;
-    dealii::Vector<double>                      cell_rhs;
-    double                                      worst_node = 0.; // [m^3/s]
+    unsigned int                                fresh_iterations = 0;
+    unsigned int                                last_iterations  = 0;
+    // Of the preconditioner that is to be used, and of the one that there is: they differ
+    // after a restart or a step that failed.
+    std::shared_ptr<const Recipe> recipe, built;
+    Recipe                        assembled; // the matrix
+    BlockVector                   solution, rhs, residual;
+    dealii::FullMatrix<double>    cell_matrix;
+    dealii::Vector<double>        cell_rhs;
+    double                        worst_node = 0.; // [m^3/s]
 
     TimeScheme       scheme;
     double           last_step   = 0.;
     unsigned int     known_media = 0;
-    NodalVectorField flux_now, flux_old, history;
+    NodalVectorField flux_now, flux_old, flux_history;
     NodalVectorField carrier; // the flux that convection is linearised about
+    NodalVectorField latest;  // that of the linear system solved last
     NodalVector      pressure_now;
+    NodalVector      relative_pressure; // minus the boundaries' reference_pressure()
     NodalVector      alpha_old, alpha_older;
     NodalVector      alpha_rate; // with the source of volume
 
-    // The flux that the mesh does not resolve, at the quadrature points. Where it is not
-    // known from a step before, its rate is taken as 0.
+    // The flux that the mesh does not resolve, at the quadrature points; 0 before the
+    // first step.
     TimeScheme                        subscale_scheme;
     unsigned int                      known_unresolved = 0;
     std::vector<dealii::Tensor<1, 3>> unresolved_now, unresolved_old;

@@ -36,6 +36,8 @@ namespace graupel
       double weight;
       /** Basis functions [-]. */
       std::array<double, nodes_per_cell> value;
+      /** Their gradients [1/m]. */
+      std::array<dealii::Tensor<1, 3>, nodes_per_cell> gradient;
     };
 
     /** @p nodes must outlive this object; pressure is prescribed on @p outlets. */
@@ -44,6 +46,11 @@ namespace graupel
 
     /** Quadrature points of this rank's part of a boundary. */
     const std::vector<FacePoint> &boundary(const dealii::types::boundary_id id) const;
+
+    /** The value of @p field at @p point, and the normal component of @p field, outward;
+     * ghosts up to date. */
+    double value(const FacePoint &point, const NodalVector &field) const;
+    double normal_component(const FacePoint &point, const NodalVectorField &field) const;
 
     /** Owned cells of this rank. */
     unsigned int

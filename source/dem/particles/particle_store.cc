@@ -264,6 +264,7 @@ namespace graupel
     std::vector<std::uint32_t>                         old_row(n, no_row);
     std::vector<std::int64_t>                          ids(n);
     std::map<unsigned int, std::vector<std::uint32_t>> wanted, awaited;
+    std::vector<std::pair<std::int64_t, dealii::Particles::ParticleIterator<3>>> by_id;
     cells.clear();
     std::uint32_t row = 0;
     for (const auto &cell : mesh.triangulation().active_cell_iterators())
@@ -271,9 +272,17 @@ namespace graupel
         if (!cell->is_locally_owned() || handler.n_particles_in_cell(cell) == 0)
           continue;
         cells.push_back({cell, row, {}});
-        for (auto &particle : handler.particles_in_cell(cell))
+        // By id, so that sums over rows do not depend on how the particles came here.
+        by_id.clear();
+        const auto in_cell = handler.particles_in_cell(cell);
+        for (auto particle = in_cell.begin(); particle != in_cell.end(); ++particle)
+          by_id.push_back({particle->get_id(), particle});
+        std::sort(by_id.begin(), by_id.end(), [](const auto &a, const auto &b) {
+          return a.first < b.first;
+        });
+        for (auto &[id, particle] : by_id)
           {
-            const auto label = particle.get_properties();
+            const auto label = particle->get_properties();
             const auto rank  = static_cast<unsigned int>(label[holder]);
             const auto from  = static_cast<std::uint32_t>(label[holders_row]);
             if (rank == me)
@@ -283,10 +292,11 @@ namespace graupel
                 wanted[rank].push_back(from);
                 awaited[rank].push_back(row);
               }
-            ids[row]           = particle.get_id();
+            ids[row]           = id;
             label[holder]      = me;
             label[holders_row] = row;
-            cells.back().reference_locations.push_back(particle.get_reference_location());
+            cells.back().reference_locations.push_back(
+              particle->get_reference_location());
             ++row;
           }
       }

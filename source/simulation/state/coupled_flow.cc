@@ -120,29 +120,17 @@ namespace graupel
   void
   CoupledFlow::save(const std::string &file) const
   {
-    dealii::parallel::distributed::SolutionTransfer<3, NodalVector> transfer(
-      node_space->dof_handler);
-    const NodalVectorField &flux = fluid().flux();
-    transfer.prepare_for_serialization(
-      {&flux[0], &flux[1], &flux[2], &fluid().pressure()});
-    mesh.save(file);
+    solver->save(file);
   }
 
   void
-  CoupledFlow::load(const double time)
+  CoupledFlow::load(const FlowHistory &history)
   {
-    std::array<NodalVector, 4> fields;
-    std::vector<NodalVector *> pointers;
-    for (NodalVector &field : fields)
-      {
-        node_space->initialize(field);
-        pointers.push_back(&field);
-      }
-    dealii::parallel::distributed::SolutionTransfer<3, NodalVector> transfer(
-      node_space->dof_handler);
-    transfer.deserialize(pointers);
-    dem.synchronise();
-    take_over(fields, time);
+    solver->restore(history);
+    superficial_velocity = history.last_velocity;
+    look_at_bed();
+    // The slip of the next drag is that of the last step, through the bed as it was then.
+    particles_and_fluid->follow(fluid().flux(), fluid().void_fraction());
   }
 
   FlowSolver::Report

@@ -58,11 +58,11 @@ namespace graupel
     void save(const std::string &file) const;
 
     /**
-     * Goes on from the fields of save(), at @p time [s], on the mesh that VesselMesh
-     * has loaded from the same file and past the particles where they are. The next
-     * step is of first order. Collective.
+     * Goes on from the fields of save() and the @p history of the fluid() then, on the
+     * mesh that VesselMesh has loaded from the same file and past the particles where
+     * they are: as if nothing had been in between. Collective.
      */
-    void load(const double time);
+    void load(const FlowHistory &history);
 
     /**
      * The longest step [s] that follows the answer of the particles to the fluid, as of
