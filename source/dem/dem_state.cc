@@ -50,7 +50,7 @@ namespace graupel
               result.particles.end(),
               [](const auto &a, const auto &b) { return a.id < b.id; });
     result.contacts = from_all_ranks(contacts.contacts_of(arrays, rows), communicator());
-    result.walls             = state_of_walls();
+    result.walls    = state_of_walls();
     result.clock_runs        = time.has_value();
     result.clock             = clock();
     result.departed          = departed_by_type;

@@ -75,7 +75,7 @@ namespace graupel
   void
   FlowSolver::assemble(const Medium &medium)
   {
-    fastest   = fastest_speed(medium.void_fraction);
+    fastest                 = fastest_speed(medium.void_fraction);
     assembled.rate          = scheme.now;
     assembled.subscale_rate = subscale_scheme.now;
     assembled.speed         = fastest;

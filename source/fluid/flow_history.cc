@@ -167,10 +167,10 @@ namespace graupel
         medium.solids->by_gradient    = recipe->solids[1];
         medium.solids->pressure_share = recipe->solids[2];
       }
-    carrier                = recipe->carrier;
-    scheme.now             = recipe->rate;
-    subscale_scheme.now    = recipe->subscale_rate;
-    fastest                = recipe->speed;
+    carrier             = recipe->carrier;
+    scheme.now          = recipe->rate;
+    subscale_scheme.now = recipe->subscale_rate;
+    fastest             = recipe->speed;
     assemble_system(medium);
     preconditioner.refresh(matrix, schur);
     built = recipe;

@@ -213,7 +213,7 @@ namespace graupel
     summary.wall_seconds = Progress::steady_seconds() - started;
     summary.cpu_seconds  = state.cpu_seconds();
     summary.cells        = state.mesh.triangulation().n_global_active_cells();
-    summary.volume       = state.mesh.mean_cross_section() * state.parameters.cylinder.height;
+    summary.volume = state.mesh.mean_cross_section() * state.parameters.cylinder.height;
     write_summary(files.path("summary.json"), summary, state.communicator);
   }
 } // namespace graupel

@@ -64,7 +64,7 @@ namespace graupel
     saved.written             = files.written();
     saved.has_fluid           = state.fluid.has_value();
     if (state.fluid)
-      saved.fluid = state.fluid->history();
+      saved.fluid = state.fluid->fluid().history();
     saved.phase_number = phase_number;
     if (phase_now != nullptr)
       saved.phase = phase_now->save();

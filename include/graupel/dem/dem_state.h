@@ -77,9 +77,9 @@ namespace graupel
     void
     serialize(Archive &archive, const unsigned int)
     {
-      archive &particles &contacts &walls &clock_runs &clock;
+      archive &particles &contacts &walls &clock_runs           &clock;
       archive &departed &departed_volume &solid_volume &next_id &packing_materials;
-      archive &force_quantum &torque_quantum;
+      archive &force_quantum                                    &torque_quantum;
     }
   };
 } // namespace graupel
