@@ -414,6 +414,8 @@ class ParameterText(CaseTest):
             ("Particles/size list", "1e-3: abc"),
             ("Walls/planes", "0 0 nan 0 0 -1"),
             ("Contact/pairs", "1-1 friction inf"),
+            ("Particles/gravity", "0, abc, 1"),
+            ("Output/probes", "middle: 0 0 nan"),
             ("Coupling/filter length", "nan"),
             ("Flow/superficial velocities", "0.3, inf"),
         ):
