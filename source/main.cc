@@ -166,7 +166,8 @@ namespace
                 "Refinement study/vary",
                 "a study cannot be resumed; run it without --resume");
         check_levels(parameters);
-        check_input_files(parameters);
+        for (const RunParameters &level : study_levels(parameters))
+          check_input_files(level);
         if (options.check)
           {
             if (is_first_rank())

@@ -2,6 +2,7 @@
 #include <graupel/simulation/simulation.h>
 #include <graupel/simulation/state/bytes.h>
 
+#include <boost/serialization/string.hpp>
 #include <boost/serialization/vector.hpp>
 
 #include <sstream>

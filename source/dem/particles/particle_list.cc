@@ -1,4 +1,5 @@
 #include <graupel/base/parameters.h>
+#include <graupel/base/read_numbers.h>
 #include <graupel/dem/particles/particle_list.h>
 
 #include <deal.II/base/utilities.h>
@@ -26,21 +27,9 @@ namespace graupel
     double
     number(const std::string &text, const std::string &file, const unsigned int line)
     {
-      std::size_t end   = 0;
-      double      value = 0.;
-      try
-        {
-          value = std::stod(text, &end);
-        }
-      catch (const std::exception &)
-        {
-          end = std::string::npos;
-        }
-      check(end == text.size() && std::isfinite(value),
-            file,
-            line,
-            "\"" + text + "\" is not a number");
-      return value;
+      const auto value = number_in(text);
+      check(value.has_value(), file, line, "\"" + text + "\" is not a number");
+      return *value;
     }
   } // namespace
 

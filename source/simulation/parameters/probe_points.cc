@@ -1,10 +1,10 @@
 #include <graupel/base/parameters.h>
+#include <graupel/base/read_numbers.h>
 #include <graupel/simulation/parameters/probe_points.h>
 
 #include <deal.II/base/utilities.h>
 
 #include <set>
-#include <sstream>
 
 namespace graupel
 {
@@ -15,16 +15,18 @@ namespace graupel
     ProbePoint
     read_probe(const std::string &text)
     {
-      const auto         colon = text.find(':');
-      ProbePoint         point;
-      std::istringstream numbers(colon == std::string::npos ? ""
-                                                            : text.substr(colon + 1));
-      require(numbers >> point.place[0] >> point.place[1] >> point.place[2] &&
-                (numbers >> std::ws).eof(),
+      const auto colon   = text.find(':');
+      const auto numbers = colon == std::string::npos
+                             ? std::vector<double>()
+                             : read_numbers(parameter, text.substr(colon + 1));
+      require(numbers.size() == 3,
               parameter,
               "\"" + text +
                 "\" is not a probe: write NAME: x y z, a name and three numbers in "
                 "metres; probes are separated by bars (|)");
+      ProbePoint point;
+      for (unsigned int d = 0; d < 3; ++d)
+        point.place[d] = numbers[d];
       point.name = dealii::Utilities::trim(text.substr(0, colon));
       require(!point.name.empty() &&
                 point.name.find_first_of(",\" ") == std::string::npos,

@@ -1,7 +1,9 @@
 #include <graupel/simulation/phases/packing_phases.h>
 #include <graupel/simulation/state/bytes.h>
 
+#include <boost/serialization/string.hpp>
 #include <boost/serialization/utility.hpp>
+#include <boost/serialization/vector.hpp>
 
 namespace graupel
 {
