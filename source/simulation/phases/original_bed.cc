@@ -60,7 +60,7 @@ namespace graupel
     else if (choice.void_fraction == "correlation")
       {
         const double original =
-          parameters.cylinder.diameter / parameters.dem.particles.diameter;
+          parameters.cylinder.diameter / parameters.dem.mean_original_diameter();
         const double simulated =
           parameters.cylinder.diameter / parameters.simulated_diameter();
         ratio = (1. - benyahia_oneill_void_fraction(original)) /
