@@ -74,7 +74,7 @@ namespace
 // times as long.
 TEST(Filling, ARateIsCarriedOnWhateverTheLayers)
 {
-  for (const double rate : {97., 630., 650., 3000.})
+  for (const double rate : {290., 630., 3000.})
     for (const double interval : {0., 0.007})
       {
         SmallColumn       column(SmallColumn::parameters());
@@ -129,33 +129,31 @@ TEST(Filling, ARateForWhichThereIsNoRoomIsRefused)
 // height that cannot be reached is told.
 TEST(Filling, ThroughALeakEndsOrTells)
 {
-  for (const std::string method : {"rain", "packing"})
-    for (const bool by_mass : {false, true})
-      {
-        SmallColumn       column(with_open_bottom());
-        FillingParameters filling = by_count(method, by_mass ? 0 : 100);
-        if (by_mass)
-          filling.mass = 100. * column.dem.parameters().particles.simulated_mass();
-        Filling phase(filling, column.dem);
-        while (phase.time() < 5. && phase.step())
-          ;
-        EXPECT_EQ(phase.progress(), 1.) << method;
-        EXPECT_EQ(column.dem.n_departed() + column.dem.n_global(), 100u) << method;
-        EXPECT_GT(column.dem.n_departed(), 0u) << method;
-      }
-  for (const std::string method : {"rain", "packing"})
+  for (const bool by_mass : {false, true})
     {
       SmallColumn       column(with_open_bottom());
-      FillingParameters filling;
-      filling.method     = method;
-      filling.bed_height = 0.01;
-      Filling    phase(filling, column.dem);
-      const auto failure = failure_of([&] {
-        while (phase.time() < 10. && phase.step())
-          ;
-      });
-      EXPECT_TRUE(contains(failure, "Walls/bottom")) << method << ": " << failure;
+      FillingParameters filling =
+        by_count(by_mass ? "packing" : "rain", by_mass ? 0 : 100);
+      if (by_mass)
+        filling.mass = 100. * column.dem.parameters().particles.simulated_mass();
+      Filling phase(filling, column.dem);
+      while (phase.time() < 1. && phase.step())
+        ;
+      EXPECT_EQ(phase.progress(), 1.) << filling.method;
+      EXPECT_EQ(column.dem.n_departed() + column.dem.n_global(), 100u) << filling.method;
+      EXPECT_GT(column.dem.n_departed(), 0u) << filling.method;
     }
+  SmallColumn       column(with_open_bottom());
+  FillingParameters filling;
+  filling.method     = "rain";
+  filling.rate       = 200.;
+  filling.bed_height = 0.01;
+  Filling    phase(filling, column.dem);
+  const auto failure = failure_of([&] {
+    while (phase.time() < 5. && phase.step())
+      ;
+  });
+  EXPECT_TRUE(contains(failure, "Walls/bottom")) << failure;
 }
 
 // A vessel without particles: all that is asked of it is zero, and it goes on.
