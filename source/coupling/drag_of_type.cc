@@ -9,9 +9,6 @@ namespace graupel
   {
     // Relative width of the difference, and the least one [m/s].
     constexpr double difference = 1e-3, least_difference = 1e-9;
-    // Exchange takes the answer of the particles into the fluid's step, so that this is
-    // no limit of stability but of what is resolved.
-    constexpr double steps_of_response = 0.5;
   } // namespace
 
   double
@@ -36,16 +33,10 @@ namespace graupel
   }
 
   double
-  explicit_limit(const double void_fraction, const double mass, const double slope)
+  stable_step(const double void_fraction, const double mass, const double slope)
   {
     const double dense = void_fraction < 0.5 ? void_fraction / (1. - void_fraction) : 1.;
     return 2. * void_fraction * dense * mass / slope;
-  }
-
-  double
-  stable_step(const double void_fraction, const double mass, const double slope)
-  {
-    return steps_of_response * explicit_limit(void_fraction, mass, slope);
   }
 
   double

@@ -2,6 +2,15 @@
 
 namespace graupel
 {
+  namespace
+  {
+    // Mobility of a particle that contacts hold, over that of a free one [-]. Contacts
+    // give way a little within a step; with none, light spheres at rest ring.
+    constexpr double held_mobility = 0.2;
+    // Where the force from outside is below this part of the weight, a particle is about
+    // to lift or to come to rest, and contacts say little about what it will do [-].
+    constexpr double clear_force = 0.3;
+  }
   ParticleResponse
   held_response(const ParticleArrays &particles)
   {
@@ -22,16 +31,23 @@ namespace graupel
     ParticleResponse      response  = held_response(particles);
     for (unsigned int row = 0; row < particles.n_owned; ++row)
       {
-        const double mass    = particles.mass[row];
-        const auto   outside = particles.external_force[row] + mass * gravity;
-        const double square  = outside.norm_square();
+        const double mass     = particles.mass[row];
+        const double volume   = sphere_volume(particles.body[row].radius);
+        const auto   buoyancy = -volume * density * gravity;
+        const auto   weight   = mass * gravity + buoyancy;
+        const auto   before   = particles.external_force[row];
+        const auto   outside  = before + mass * gravity;
+        const double square   = outside.norm_square();
         const double carried =
           square > 0. ? std::clamp(-(dem.contact_force(row) * outside) / square, 0., 1.)
                       : 0.;
-        const double volume    = sphere_volume(particles.body[row].radius);
-        response.mobility[row] = (1. - carried) * step / mass;
+        const double clear =
+          std::min(1., square / (clear_force * clear_force * weight.norm_square()));
+        const double mobility =
+          (1. - (1. - held_mobility) * clear * carried) * step / mass;
+        response.mobility[row] = mobility;
         response.velocity[row] +=
-          response.mobility[row] * (mass - volume * density) * gravity;
+          (1. - carried) * step / mass * outside + mobility * (buoyancy - before);
       }
     return response;
   }

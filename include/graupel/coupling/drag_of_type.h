@@ -40,14 +40,9 @@ namespace graupel
    * spheres with the fluid's velocity -(1 - alpha) / alpha v, as their volume must go
    * somewhere: with c = (1 - alpha) / alpha and k = dt F' / (alpha m) an error grows by
    * the roots of z^2 - z (1 - k - k c / 2) + k c / 2 = 0 from one step to the next.
-   */
-  double explicit_limit(const double void_fraction,
-                        const double mass,
-                        const double slope);
-
-  /**
-   * The longest step of the fluid [s] that follows one sphere's answer to the drag:
-   * steps_of_response times the explicit_limit().
+   *
+   * Exchange takes the answer of the spheres into the fluid's step (ParticleResponse),
+   * and is stable beyond; there the limit says how long a step resolves that answer.
    */
   double stable_step(const double void_fraction, const double mass, const double slope);
 

@@ -21,14 +21,18 @@ namespace graupel
   ParticleResponse held_response(const ParticleArrays &particles);
 
   /**
-   * Particles that are free answer within @p step [s] with step / mass; those that
-   * contacts hold do not. Of the force from outside A (the last one, and the weight)
-   * contacts with the force L carry the part lambda = min(1, max(0, -L A / A^2)) now,
-   * and will do so:
+   * What particles do within @p step [s]. Under the last force of the fluid F_0 and the
+   * weight in the fluid, A together, contacts with the force L carry the part
+   * lambda = min(1, max(0, -L A / A^2)) now; another force moves a particle with the
+   * mobility k:
    *
-   *   v + (1 - lambda) step / m (m g - V rho g + F).
+   *   v + (1 - lambda) step / m A + k (F - F_0).
    *
-   * @p gravity [m/s^2]; buoyancy of a fluid of @p density [kg/m^3].
+   * A free particle has lambda = 0 and k = step / m, which makes this the implicit step.
+   * One that rests has lambda = 1, and whatever k is, its velocity is 0 when F no longer
+   * changes: k then only delays the force by about dt beta / (m alpha^2) m k / dt steps.
+   * It is small where a particle is held beyond doubt. @p gravity [m/s^2]; buoyancy in a
+   * fluid of @p density [kg/m^3].
    */
   ParticleResponse particle_response(const Dem                  &dem,
                                      const dealii::Tensor<1, 3> &gravity,

@@ -1,9 +1,19 @@
+#include <graupel/dem/particles/dem_error.h>
 #include <graupel/simulation/state/coupled_flow.h>
 
 #include <deal.II/distributed/solution_transfer.h>
 
+#include <sstream>
+
 namespace graupel
 {
+  namespace
+  {
+    // Particles faster than this times the sum of the fluid's superficial velocity and
+    // that of a fall through the vessel are not what a flow does [-].
+    constexpr double implausible = 10.;
+  } // namespace
+
   CoupledFlow::CoupledFlow(const RunParameters &parameters,
                            const double         solid_ratio,
                            VesselMesh          &mesh,
@@ -16,6 +26,15 @@ namespace graupel
     , costs(costs)
   {
     build();
+    look_at_bed();
+    find_stable_step();
+  }
+
+  void
+  CoupledFlow::find_stable_step()
+  {
+    particles_and_fluid->update_drag(dem.particles());
+    longest_step = particles_and_fluid->stable_step(dem.particles());
   }
 
   void
@@ -115,6 +134,7 @@ namespace graupel
     solver->set_superficial_velocity(superficial_velocity);
     solver->set_time(time);
     solver->continue_from(flux, fields[3], exchange().medium().void_fraction);
+    find_stable_step();
   }
 
   void
@@ -155,6 +175,32 @@ namespace graupel
       particles_and_fluid->forces(dem.particles(), *solver, density, gravity);
     longest_step = particles_and_fluid->stable_step(dem.particles());
     return report;
+  }
+
+  void
+  CoupledFlow::move_particles(const double step)
+  {
+    try
+      {
+        dem.advance(step);
+      }
+    catch (const DemError &error)
+      {
+        const double fastest = dem.maximum_speed();
+        const double fall =
+          std::sqrt(2. * parameters.dem.particles.gravity * parameters.cylinder.height);
+        if (!(fastest > implausible * (superficial_velocity + fall)) &&
+            !(step > longest_step))
+          throw;
+        const std::string  what = error.what();
+        std::ostringstream text;
+        text << "The particles move with up to " << fastest
+             << " m/s: steps of the fluid of " << step
+             << " s are too long for their answer to it, which " << longest_step
+             << " s would follow. Try a smaller Flow/time step. What it came to: "
+             << what.substr(0, what.find(" Try "));
+        throw DemError(text.str());
+      }
   }
 
   FlowSolver::Report

@@ -13,7 +13,10 @@ namespace graupel
   void
   FlowFrame::move_particles(const double duration)
   {
-    state.dem.advance(duration);
+    if (!state.fluid)
+      state.dem.advance(duration);
+    else
+      state.fluid->move_particles(duration);
     state.time += duration;
     if (state.fluid)
       state.ledger.record(state.last_step.mass_imbalance,

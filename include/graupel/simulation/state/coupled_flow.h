@@ -38,6 +38,13 @@ namespace graupel
     FlowSolver::Report step(const double step);
 
     /**
+     * Moves the particles through @p step [s] under the forces of step(). Throws
+     * DemError, on all ranks; one that the length of the fluid's step explains names
+     * Flow/time step.
+     */
+    void move_particles(const double step);
+
+    /**
      * Finds the steady flow past the particles where they are, drag and convection
      * converged to "Flow solver/nonlinear tolerance", and sets its force on them.
      * @p tell is given the relative change after each linear system. Throws
@@ -66,7 +73,8 @@ namespace graupel
 
     /**
      * The longest step [s] that follows the answer of the particles to the fluid, as of
-     * the last step or look at the bed; infinite without particles.
+     * the last step() or, before it, the bed at the beginning; infinite without particles
+     * (Exchange::stable_step()).
      */
     double
     stable_step() const
@@ -105,6 +113,7 @@ namespace graupel
 
   private:
     void build();
+    void find_stable_step();
     // step() through the bed as it was last looked at.
     FlowSolver::Report flow_past_bed(const double step);
     // Flux and pressure (4 fields) on the nodes as they are now.

@@ -1,0 +1,134 @@
+#include <graupel/base/parameters.h>
+#include <graupel/coupling/exchange.h>
+
+#include <gtest/gtest.h>
+
+using namespace graupel;
+
+namespace
+{
+  // A short column of air with particles of 2 mm at given places.
+  struct Column
+  {
+    static constexpr double particle = 2e-3;
+
+    Column(const std::vector<dealii::Point<3>> &positions,
+           const double                         filter_length,
+           const bool                           shares_pressure = true,
+           const double                         cell            = 2e-3)
+      : mesh({0.012, 0.02}, {cell, 0.}, MPI_COMM_WORLD)
+      , nodes(mesh)
+      , dem(parameters(), mesh, costs)
+      , exchange(filter_length, shares_pressure, {}, {drag()}, nodes, costs)
+      , flow({}, air.density, air.viscosity, nodes, costs)
+    {
+      dem.insert(positions);
+      dem.synchronise();
+    }
+
+    static DemParameters
+    parameters()
+    {
+      DemParameters result;
+      result.particles.diameter = particle;
+      return result;
+    }
+
+    static DragOfType
+    drag()
+    {
+      DragParameters choice;
+      choice.law = "wen-yu";
+      return {Drag(choice, FluidProperties(), particle, 1.), 0.5 * particle};
+    }
+
+    void
+    flow_past(const double velocity, const bool answering = false)
+    {
+      flow.set_superficial_velocity(velocity);
+      for (unsigned int n = 0; n < 6; ++n)
+        {
+          exchange.update_bed(dem.store(), dem.particles());
+          if (answering)
+            exchange.update_drag(dem.particles(),
+                                 particle_response(dem, {}, air.density, 1e-3));
+          else
+            exchange.update_drag(dem.particles());
+          flow.step(exchange.medium(), answering ? 1e-3 : FlowSolver::steady);
+          force = exchange.forces(dem.particles(), flow, air.density, {});
+        }
+    }
+
+    const FluidProperties             air;
+    CostSheet                         costs;
+    VesselMesh                        mesh;
+    NodalSpace                        nodes;
+    Dem                               dem;
+    Exchange                          exchange;
+    FlowSolver                        flow;
+    std::vector<dealii::Tensor<1, 3>> force;
+  };
+} // namespace
+
+TEST(FewParticles, WithoutAnyTheFluidIsClear)
+{
+  for (const bool shares_pressure : {true, false})
+    for (const bool answering : {true, false})
+      {
+        Column column({}, 1.4e-3, shares_pressure);
+        column.flow_past(0.3, answering);
+        const Exchange &exchange = column.exchange;
+        for (unsigned int k = 0; k < column.nodes.measure().locally_owned_size(); ++k)
+          {
+            EXPECT_EQ(exchange.medium().void_fraction.local_element(k), 1.);
+            EXPECT_EQ(exchange.medium().drag.local_element(k), 0.);
+          }
+        EXPECT_TRUE(column.force.empty());
+        EXPECT_EQ(exchange.total_force().norm(), 0.);
+        EXPECT_EQ(exchange.solid_volume_error(), 0.);
+        EXPECT_EQ(exchange.momentum_imbalance(), 0.);
+        EXPECT_TRUE(std::isinf(exchange.stable_step(column.dem.particles())));
+        EXPECT_NEAR(column.flow.outflow() / column.flow.inflow(), 1., 1e-8);
+      }
+}
+
+TEST(FewParticles, OneFeelsTheLawInClearFluidWhateverTheMesh)
+{
+  // Held in the middle of the column, with the default filter. It takes neither itself
+  // nor, with a sharp surface, its filtered surroundings for a bed; what is left is its
+  // blob in the flow, 3 % of void.
+  const double velocity = 1.;
+  for (const double cell : {4e-3, 2e-3, 1e-3})
+    {
+      Column column({dealii::Point<3>(0.3e-3, -0.4e-3, 0.0105)},
+                    Column::particle / std::sqrt(2.),
+                    true,
+                    cell);
+      column.flow_past(velocity);
+      const double expected =
+        Column::drag().beta(1., velocity, 0.5 * Column::particle) * velocity;
+      const double force = column.exchange.total_force()[2];
+      std::cout << "cells of " << cell << " m: " << force << " N of " << expected << " N"
+                << std::endl;
+      EXPECT_NEAR(force, expected, 0.04 * expected) << cell;
+      EXPECT_LE(column.exchange.momentum_imbalance(), 1e-10);
+      EXPECT_LE(column.exchange.solid_volume_error(), 1e-12);
+    }
+}
+
+TEST(FewParticles, AFilterThatDoesNotSpreadThemIsNamed)
+{
+  // A sphere of 2 mm on cells of 1 mm without a filter takes more than all of a node.
+  Column column({dealii::Point<3>(0., 0., 0.01)}, 0., true, 1e-3);
+  try
+    {
+      column.exchange.update_bed(column.dem.store(), column.dem.particles());
+      FAIL() << "a void fraction below 0 passed";
+    }
+  catch (const InputError &error)
+    {
+      EXPECT_EQ(error.parameter, "Coupling/filter length");
+      const std::string what = error.what();
+      EXPECT_NE(what.find("Mesh/cell size"), std::string::npos) << what;
+    }
+}
