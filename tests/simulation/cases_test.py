@@ -88,13 +88,14 @@ class OpenBoundaries(CaseTest):
         self.assert_close(run.case["pressure_drop"], 10.0, 1e-6, "pressure drop")
         # What a plug must have to drop as much.
         velocity = run.case["superficial_velocity"]
-        self.assert_within(velocity, 0.433, 0.02, "what flows")
+        # With 9.13 Pa it were 0.433 m/s, as before the entering momentum was counted.
+        self.assert_within(velocity, 0.461, 0.005, "what flows")
         plug = self.finished(
             "inlet-velocity",
             {"Boundary conditions/bottom": "plug", "Flow/superficial velocities": velocity},
         )
-        # Even against parabolic at the very inlet: per cents of its last cell.
-        self.assert_close(plug.case["pressure_drop"], 10.0, 0.02, "drop of the plug")
+        # A plug enters also where spheres touch the bottom: per cents of the first cell.
+        self.assert_close(plug.case["pressure_drop"], 10.0, 0.03, "drop of the plug")
         self.assert_balanced(run)
 
     def test_what_enters_by_expressions_is_what_is_reported(self):
@@ -113,8 +114,12 @@ class BedsAnywhere(CaseTest):
     """Beds that do not stand on z = 0, and what is no bed."""
 
     def expect_the_same_bed_higher(self, height):
-        values = {"Walls/planes": f"0 0 {height} 0 0 -1"}
-        here, there = self.finished("floor", {"Walls/planes": ""}), self.finished("floor", values)
+        # Cells of half a diameter: three times as large, they lose a third of the drop at
+        # the lower end of a bed of 7 mm.
+        here, there = (
+            self.finished("floor", {"Walls/planes": planes, "Mesh/cell size": 1e-3})
+            for planes in ("", f"0 0 {height} 0 0 -1")
+        )
         for key in ("bed_height", "mean_void_fraction", "pressure_drop"):
             self.assertIsNotNone(there.case[key], key)
         self.assert_within(there.case["bed_height"], here.case["bed_height"], TENTH, "height")
@@ -215,7 +220,15 @@ class InTime(CaseTest):
 
     def test_small_spheres_in_water_rest(self):
         run = self.finished("water")
-        self.assert_close(run.case["pressure_drop"], 13.97, 0.01, "pressure drop")
+        case = run.case
+        # The weight in water over the section is 13.97 Pa; the wall holds the rising bed
+        # back with another 7 %, which is what steps of 0.2 ms without any answer of the
+        # particles give too: 14.90 Pa.
+        section = math.pi / 4 * 3e-3**2
+        buoyancy = 998 * 9.81 * run.bed["solid_volume"]
+        load = case["weight"] - buoyancy - case["support_force"]
+        self.assert_close(case["pressure_drop"] * section, load, 0.01, "carried")
+        self.assert_close(case["pressure_drop"], 14.90, 0.02, "pressure drop")
         self.assertLess(run.rows("monitors.csv")[-1]["maximum_speed"], 5e-3)
 
     def test_corks_float_to_the_lid(self):
@@ -266,20 +279,15 @@ class Filling(CaseTest):
     """How much is filled in, where, and when."""
 
     def test_a_rate_that_is_no_whole_number_a_layer(self):
-        # 100 spheres at 630 and 650 a second, and the same settling: the moments at which the
-        # last of them rests are looked for at intervals.
-        slow, fast = (
-            self.settled_after(self.finished("rate", {"Filling/rate": rate}))
-            for rate in (630, 650)
-        )
-        self.assert_within(slow - fast, 100 / 630 - 100 / 650, 0.04, "longer by")
-        self.assertGreater(fast, 100 / 650)
-
-    @staticmethod
-    def settled_after(run):
-        """Simulated time of filling and settling [s]."""
-        text = (run.directory / "particles.pvd").read_text(encoding="utf-8")
-        return float(re.search(r'timestep="([^"]*)"', text).group(1))
+        for rate in (630, 650):
+            rows = self.finished("rate", {"Filling/rate": rate}).rows("monitors.csv")
+            filling = [row for row in rows if row["phase"] == "fill"]
+            # A row each 10 ms, to 100 spheres after 0.159 and 0.154 s.
+            self.assertGreaterEqual(len(filling), 15)
+            for row in filling:
+                due = min(100, rate * row["time"])
+                self.assert_within(row["particles"], due, 1.0, f"after {row['time']} s")
+            self.assert_within(filling[-1]["time"], 100 / rate, 0.012, "filled after")
 
     def test_what_leaves_while_it_is_filled_in(self):
         try:
