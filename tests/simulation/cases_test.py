@@ -6,7 +6,6 @@ same but for what must not matter.
 
 import hashlib
 import math
-import re
 import shutil
 import subprocess
 
@@ -126,9 +125,10 @@ class BedsAnywhere(CaseTest):
         # A tenth of a diameter in 7 mm is 0.017 of the void fraction.
         void = [run.case["mean_void_fraction"] for run in (there, here)]
         self.assert_within(*void, 0.017, "void fraction")
-        # The bed is not the same sphere by sphere.
+        # The bed is not the same sphere by sphere, and one end more is smeared by the
+        # filter: a tenth of a bed of three diameters.
         self.assert_close(
-            there.case["pressure_drop"], here.case["pressure_drop"], 0.1, "pressure drop"
+            there.case["pressure_drop"], here.case["pressure_drop"], 0.13, "pressure drop"
         )
         self.assertIs(there.case["fluidized"], False)
         rise = there.middle_of_solids() - here.middle_of_solids()
