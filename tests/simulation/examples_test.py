@@ -6,6 +6,8 @@ import math
 
 from runs import ROOT, RunTest, main
 
+from common.particles import positions
+
 EXAMPLES = ROOT / "prm"
 GRAVITY = 9.81
 AREA = math.pi * 0.025**2 / 4  # of the paper's vessel [m^2]
@@ -133,6 +135,86 @@ class Vessels(ExampleTest):
         end = run.rows("monitors.csv")[-1]
         carried = end["support_force"] + end["fluid_force"]
         self.assert_close(carried, run.case["weight"], 1e-3, "carried")
+
+
+class MovingWalls(ExampleTest):
+    """prm/walls."""
+
+    def flow_rows(self, run):
+        return [row for row in run.rows("monitors.csv") if row["phase"] == "flow"]
+
+    def test_a_gate_that_opens(self):
+        run = self.finished("walls/gate.prm")
+        rows = run.rows("monitors.csv")
+        closed = [row for row in rows if row["phase"] == "settle"][-1]
+        self.assert_within(closed["bed_bottom"], 0.01, 1e-9, "on the gate")
+        self.assert_close(closed["support_force"], closed["weight"], 0.01, "carried")
+        self.assertEqual(closed["bottom_force"], 0.0)
+        end = rows[-1]
+        self.assert_within(end["bed_bottom"], 0.0, 1e-9, "on the bottom")
+        self.assert_close(end["support_force"], end["weight"], 0.01, "carried")
+        # A tenth of a diameter.
+        self.assert_within(end["bed_height"], closed["bed_height"], 2e-4, "height")
+
+    def test_a_hopper_that_drains(self):
+        run = self.finished("walls/hopper.prm")
+        rows = self.flow_rows(run)
+        for row in rows:
+            self.assertEqual(row["particles"] + row["departed_particles"], 1500)
+        self.assertEqual(rows[-1]["particles"], 0)
+        self.assertIsNone(run.case["bed_height"])
+
+    def test_a_drum_that_turns(self):
+        run = self.finished("walls/drum.prm")
+        centers = positions(run.directory, 1)
+        x, y = centers[:, 0].mean(), centers[:, 1].mean()
+        # Downwards is -x; the wall moves towards -y there, and takes the bed along. With a
+        # friction of 0.5 spheres stand at 20 to 40 degrees when they flow.
+        angle = math.degrees(math.atan2(-y, -x))
+        self.assertTrue(15 < angle < 45, f"angle of repose {angle}")
+        self.assertLess(abs(centers).max(), 0.02)
+
+    def test_a_feed_that_carries_on(self):
+        run = self.finished("walls/feed.prm")
+        for row in self.flow_rows(run):
+            # The first case begins at once: without particles nothing settles.
+            due = 399 * min(row["time"], 2.0)
+            self.assert_within(row["particles"], due, 1.0, f"after {row['time']} s")
+            self.assertEqual(row["particles"], row["fed_particles"])
+        self.assertEqual(run.case["particles"], 798)
+
+
+class AnyFlow(ExampleTest):
+    """prm/flow."""
+
+    def test_absolute_pressures(self):
+        run = self.finished("flow/absolute-pressure.prm")
+        low = self.finished(
+            "flow/absolute-pressure.prm",
+            {"Boundary conditions/bottom": "pressure 10", "Boundary conditions/top": "pressure 0"},
+        )
+        self.assert_close(run.case["pressure_drop"], 10.0, 1e-6, "pressure drop")
+        for key in ("superficial_velocity", "fluid_force", "bottom_force"):
+            self.assert_close(run.case[key], low.case[key], 1e-4, key)
+        self.assertGreater(run.case["superficial_velocity"], 0.4)
+        self.assert_balanced(run)
+
+    def test_a_vessel_without_particles(self):
+        run = self.finished("flow/clear-vessel.prm")
+        right = 32 * 1.8e-5 * 0.01 * 0.02 / 0.01**2
+        self.assert_close(run.case["pressure_drop"], right, 0.05, "Poiseuille's drop")
+        self.assert_close(run.case["superficial_velocity"], 0.01, 1e-6, "velocity")
+        for key in ("bed_height", "mean_void_fraction", "ergun_pressure_drop", "fluidized"):
+            self.assertIsNone(run.case[key], key)
+        self.assertEqual(run.case["particles"], 0)
+
+    def test_a_bed_that_is_blown_out(self):
+        run = self.finished("flow/blown-out.prm")
+        self.assertEqual(run.case["particles"], 0)
+        self.assertEqual(run.case["departed_particles"], 100)
+        self.assert_close(run.case["superficial_velocity"], 3.0, 1e-6, "velocity")
+        for key in ("bed_height", "deviation_from_ergun", "fluidized"):
+            self.assertIsNone(run.case[key], key)
 
 
 class Studies(ExampleTest):

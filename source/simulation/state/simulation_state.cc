@@ -76,7 +76,8 @@ namespace graupel
   BedObservables::Bed
   SimulationState::bed() const
   {
-    return observables.bed();
+    return parameters.dem.particles.gravity_is_axial() ? observables.bed() :
+                                                         BedObservables::Bed();
   }
 
   double

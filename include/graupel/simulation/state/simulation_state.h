@@ -33,7 +33,8 @@ namespace graupel
     /** Refines and coarsens the mesh where it is time to, and tells. Collective. */
     void adapt_if_due();
 
-    /** The bed as it is now. Collective. */
+    /** The bed as it is now; none where gravity does not point down along the axis.
+     * Collective. */
     BedObservables::Bed bed() const;
 
     /** Processor time of this rank; on the first with that of the run that this one
