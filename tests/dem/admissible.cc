@@ -103,7 +103,7 @@ namespace
   {
     DemParameters p    = SmallColumn::parameters();
     p.walls.planes     = "floor: 0 0 0.003 0 0 -1";
-    p.walls.surfaces   = "box: " + write_stl("solid",
+    p.walls.surfaces   = "box: " + write_stl("block",
                                            box_shape(Point<3>(-3e-3, -3e-3, 10e-3),
                                                      Point<3>(3e-3, 3e-3, 16e-3)));
     const auto message = [&](const auto &act) -> std::string {

@@ -1,10 +1,10 @@
 #ifndef graupel_tests_dem_stl_shapes_h
 #define graupel_tests_dem_stl_shapes_h
 
-#include <deal.II/base/mpi.h>
 #include <deal.II/base/point.h>
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <array>
 #include <fstream>
@@ -45,13 +45,12 @@ namespace graupel
     return triangles;
   }
 
-  /** Writes triangles [m] in millimetres, a file for each rank; returns its path. */
+  /** Writes triangles [m] in millimetres, a file for each process; returns its path. */
   inline std::string
   write_stl(const std::string &name, const Triangles &triangles)
   {
     const std::string file =
-      testing::TempDir() + name +
-      std::to_string(dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD)) + ".stl";
+      testing::TempDir() + name + '-' + std::to_string(getpid()) + ".stl";
     std::ofstream stream(file);
     stream << std::setprecision(12) << "solid " << name << '\n';
     for (const auto &triangle : triangles)
