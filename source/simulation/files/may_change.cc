@@ -49,9 +49,7 @@ namespace graupel
       {"Mesh/", true, false, false, "the fields belong to this mesh"},
       {"Particles/density", true, false, false, "the bed settles anew"},
       {"Particles/gravity", true, false, false, "the bed settles anew"},
-      {"Particles/Type", false, false, false, "the bed is made of these particles"},
       {"Particles/", false, false, false, "the bed is made of these particles"},
-      {"Walls/containers", true, false, false, "walls are known by their names"},
       {"Walls/", true, false, false, "walls are known by their names"},
       {"Filling/", true, false, false, "the bed has been filled by them"},
       {"", true, false, false, "the state belongs to these values"}};
