@@ -190,9 +190,9 @@ TEST(Filling, WithNothingAtAll)
       EXPECT_EQ(dem.bottom_force(), 0.);
       EXPECT_EQ(dem.original_sauter_diameter(), 2e-3);
       const auto bed =
-        BedObservables(dem.particles(), dem.cylinder(), communicator).bed();
-      EXPECT_EQ(bed.height, 0.);
-      const auto profiles = bed_profiles(dem, 0., 2e-3);
+        BedObservables(dem.particles(), dem.vessel_shape(), communicator).bed();
+      EXPECT_FALSE(bed.exists);
+      const auto profiles = bed_profiles(dem, bed, 2e-3);
       for (const auto &slab : profiles.coordination)
         EXPECT_EQ(slab.n_particles, 0u);
 
