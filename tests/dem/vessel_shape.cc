@@ -181,7 +181,7 @@ namespace
     std::mt19937_64                  generator(7);
     std::uniform_real_distribution<> random(0., 1.);
     const double                     half = shape.vessel.cylinder().diameter / 2.;
-    const double                     h    = bed.height / std::round(bed.height / 1.1e-4);
+    const double                     h    = bed.height / std::round(bed.height / 1.5e-4);
     Count                            count;
     for (double z = bed.bottom; z < bed.top - h / 2.; z += h)
       for (double y = -half; y < half; y += h)
