@@ -30,6 +30,18 @@ namespace graupel
     }
   } // namespace
 
+  std::shared_ptr<const FlowSolver::Recipe>
+  FlowSolver::share(const Recipe &recipe)
+  {
+    const auto result = std::make_shared<Recipe>(recipe);
+    // A copy has none of the ghosts' values.
+    for (NodalVector *field : {&result->void_fraction, &result->drag})
+      field->update_ghost_values();
+    for (NodalVector &component : result->carrier)
+      component.update_ghost_values();
+    return result;
+  }
+
   FlowHistory
   FlowSolver::history() const
   {
@@ -54,12 +66,12 @@ namespace graupel
   FlowSolver::save(const std::string &file) const
   {
     std::vector<const NodalVector *> fields{&relative_pressure, &alpha_old, &alpha_older};
-    const Recipe                    &made_of = recipe ? *recipe : assembled;
-    for (const NodalVectorField *field : {&flux_now, &flux_old, &made_of.carrier})
+    const auto                       made_of = recipe ? recipe : share(assembled);
+    for (const NodalVectorField *field : {&flux_now, &flux_old, &made_of->carrier})
       for (const NodalVector &component : *field)
         fields.push_back(&component);
-    fields.push_back(&made_of.void_fraction);
-    fields.push_back(&made_of.drag);
+    fields.push_back(&made_of->void_fraction);
+    fields.push_back(&made_of->drag);
     Transfer transfer(nodes.dof_handler);
     transfer.prepare_for_serialization(fields);
 
@@ -120,7 +132,7 @@ namespace graupel
         made_of.rate          = history.preconditioned_rate;
         made_of.subscale_rate = history.preconditioned_subscale_rate;
         made_of.speed         = history.preconditioned_speed;
-        recipe                = std::make_shared<const Recipe>(made_of);
+        recipe                = share(made_of);
       }
     set_superficial_velocity(last_velocity);
     if (known_media > 0)

@@ -129,7 +129,7 @@ namespace graupel
   FlowSolver::refresh_preconditioner()
   {
     preconditioner.refresh(matrix, schur);
-    built = recipe = std::make_shared<const Recipe>(assembled);
+    built = recipe = share(assembled);
   }
 
   unsigned int
