@@ -30,6 +30,19 @@ namespace graupel
     }
   } // namespace
 
+  std::shared_ptr<const FlowSolver::Recipe>
+  FlowSolver::share(const Recipe &recipe)
+  {
+    const auto result = std::make_shared<Recipe>(recipe);
+    // A copy has none of the ghosts' values.
+    for (NodalVector *field : {&result->void_fraction, &result->drag})
+      field->update_ghost_values();
+    for (NodalVectorField *field : {&result->carrier, &result->solids})
+      for (NodalVector &component : *field)
+        component.update_ghost_values();
+    return result;
+  }
+
   FlowHistory
   FlowSolver::history() const
   {
@@ -55,13 +68,13 @@ namespace graupel
   FlowSolver::save(const std::string &file) const
   {
     std::vector<const NodalVector *> fields{&relative_pressure, &alpha_old, &alpha_older};
-    const Recipe                    &made_of = recipe ? *recipe : assembled;
+    const auto                       made_of = recipe ? recipe : share(assembled);
     for (const NodalVectorField *field :
-         {&flux_now, &flux_old, &made_of.carrier, &made_of.solids})
+         {&flux_now, &flux_old, &made_of->carrier, &made_of->solids})
       for (const NodalVector &component : *field)
         fields.push_back(&component);
-    fields.push_back(&made_of.void_fraction);
-    fields.push_back(&made_of.drag);
+    fields.push_back(&made_of->void_fraction);
+    fields.push_back(&made_of->drag);
     Transfer transfer(nodes.dof_handler);
     transfer.prepare_for_serialization(fields);
 
@@ -124,7 +137,7 @@ namespace graupel
         made_of.subscale_rate = history.preconditioned_subscale_rate;
         made_of.speed         = history.preconditioned_speed;
         made_of.has_solids    = history.preconditioned_solids;
-        recipe                = std::make_shared<const Recipe>(made_of);
+        recipe                = share(made_of);
       }
     set_superficial_velocity(last_velocity);
     if (known_media > 0)

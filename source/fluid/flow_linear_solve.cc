@@ -46,11 +46,12 @@ namespace graupel
         scale = flow_scale();
         if (iterations != failed)
           last_iterations += iterations;
-        if (mass_error() <= parameters.mass_tolerance * scale)
+        const double allowed = parameters.mass_tolerance * scale, error = mass_error();
+        if (error <= allowed)
           break;
         if (iterations == failed || round + 1 == mass_rounds)
           fail_mass_balance();
-        tolerance *= 0.03;
+        tolerance *= std::clamp(0.3 * allowed / error, 1e-3, 0.03);
       }
     if (stale)
       fresh_iterations = last_iterations;
@@ -129,7 +130,7 @@ namespace graupel
   FlowSolver::refresh_preconditioner()
   {
     preconditioner.refresh(matrix, schur);
-    built = recipe = std::make_shared<const Recipe>(assembled);
+    built = recipe = share(assembled);
   }
 
   unsigned int

@@ -28,8 +28,10 @@ namespace graupel
     prm.add_parameter(
       "mass tolerance",
       mass_tolerance,
-      "Largest mass imbalance of a step (in minus out minus stored) relative to "
-      "the inflow; the linear solve goes on until it holds [-].");
+      "Largest mass imbalance of a step (in minus out minus stored) relative to the "
+      "flow, "
+      "which is the largest of what crosses inlets and outlets, what is stored, and the "
+      "fastest flux times the section; the linear solve goes on until it holds [-].");
     prm.add_parameter("maximum iterations",
                       maximum_iterations,
                       "Iterations after which a linear solve is given up [-].");

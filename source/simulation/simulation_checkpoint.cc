@@ -46,19 +46,20 @@ namespace graupel
   Simulation::run_state() const
   {
     RunState saved;
-    saved.parameters    = state.parameters.texts;
-    saved.time          = state.time;
-    saved.next_output   = next_output;
-    saved.next_adaption = state.next_adaption;
-    saved.rest          = state.rest;
-    saved.cases         = series.results;
-    saved.last_velocity = series.last_velocity;
-    saved.has_begun     = series.has_begun;
-    saved.feeds         = to_bytes(series.feeds.state());
-    saved.ledger        = state.ledger;
-    saved.costs         = summary.costs;
-    saved.wall_seconds  = Progress::steady_seconds() - started;
-    saved.cpu_seconds   = mpi::sum(state.cpu_seconds(), state.communicator);
+    saved.parameters       = state.parameters.texts;
+    saved.time             = state.time;
+    saved.next_output      = next_output;
+    saved.next_observation = next_observation;
+    saved.next_adaption    = state.next_adaption;
+    saved.rest             = state.rest;
+    saved.cases            = series.results;
+    saved.last_velocity    = series.last_velocity;
+    saved.has_begun        = series.has_begun;
+    saved.feeds            = to_bytes(series.feeds.state());
+    saved.ledger           = state.ledger;
+    saved.costs            = summary.costs;
+    saved.wall_seconds     = Progress::steady_seconds() - started;
+    saved.cpu_seconds      = mpi::sum(state.cpu_seconds(), state.communicator);
     saved.costs.particle_steps =
       mpi::sum(summary.costs.particle_steps, state.communicator);
     saved.costs.contact_steps = mpi::sum(summary.costs.contact_steps, state.communicator);
@@ -112,6 +113,7 @@ namespace graupel
 
     state.time           = saved.time;
     next_output          = saved.next_output;
+    next_observation     = saved.next_observation;
     state.next_adaption  = saved.next_adaption;
     state.rest           = saved.rest;
     series.results       = saved.cases;

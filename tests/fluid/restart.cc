@@ -101,7 +101,7 @@ namespace
 TEST(Restart, ASavedFlowGoesOnBitByBit)
 {
   for (const std::string scheme : {"bdf1", "bdf2"})
-    for (const unsigned int saved_at : {0u, 2u, 7u})
+    for (const unsigned int saved_at : {0u, 2u, 5u})
       {
         VesselMesh first(vessel, coarse, MPI_COMM_WORLD);
         Column::refine(first, in_a_corner);
@@ -132,8 +132,10 @@ TEST(Restart, AnyNumberOfRanksReadsASavedFlow)
 {
   VesselMesh first(vessel, coarse, MPI_COMM_WORLD);
   Column::refine(first, in_a_corner);
+  first.repartition([](const auto &cell) { return cell->center()[2] < 6e-3 ? 9u : 1u; });
   Flow whole(first, "bdf2");
-  for (unsigned int n = 0; n < 6; ++n)
+  // The next step would not need a new preconditioner.
+  for (unsigned int n = 0; n < 5; ++n)
     whole.step(n);
   whole.flow.save(scratch_file());
   // All of it on each rank.
@@ -141,10 +143,10 @@ TEST(Restart, AnyNumberOfRanksReadsASavedFlow)
   second.load(scratch_file());
   Flow resumed(second, "bdf2");
   resumed.flow.restore(whole.flow.history());
-  for (unsigned int n = 6; n < 9; ++n)
+  for (unsigned int n = 5; n < 8; ++n)
     {
-      whole.step(n);
-      resumed.step(n);
+      const auto one = whole.step(n), other = resumed.step(n);
+      EXPECT_LE(other.iterations, 2 * one.iterations + 20);
       const double drop = whole.flow.mean_pressure(VesselMesh::bottom) - 1000.;
       EXPECT_NEAR(
         resumed.flow.mean_pressure(VesselMesh::bottom) - 1000., drop, 1e-6 * drop);

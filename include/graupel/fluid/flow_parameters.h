@@ -15,7 +15,7 @@ namespace graupel
     double grad_div = 1.;
     /** Residual of the linear system relative to its right-hand side [-]. */
     double linear_tolerance = 1e-8;
-    /** Mass imbalance of a step relative to the inflow [-]. */
+    /** Mass imbalance of a step relative to FlowSolver::Report::flow_scale [-]. */
     double mass_tolerance = 1e-9;
     /** Iterations after which a solve has failed [-]. */
     unsigned int maximum_iterations = 500;

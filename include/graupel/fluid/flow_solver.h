@@ -287,6 +287,8 @@ namespace graupel
     bool         is_stale() const;
     void         refresh_preconditioner();
     void         rebuild_preconditioner(const bool shares_pressure);
+    // Collective.
+    static std::shared_ptr<const Recipe> share(const Recipe &recipe);
     // Volume that enters minus what leaves and is stored, by the latest flux [m^3/s].
     double surplus() const;
     double

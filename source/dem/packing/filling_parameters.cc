@@ -241,8 +241,8 @@ namespace graupel
                "to " +
                text_of(cylinder.height) + " m";
       for (const Wall &wall : vessel)
-        if (wall.is_near(particle.position,
-                         (1. - largest_reach_into_wall) * particle.radius))
+        if (!wall.is_admissible(particle.position,
+                                (1. - largest_reach_into_wall) * particle.radius))
           return "the particle lies beyond the wall \"" + wall.name +
                  "\", or deeper in it than " + text_of(100. * largest_reach_into_wall) +
                  " % of its radius";

@@ -62,6 +62,7 @@ namespace graupel
     exchange(Archive &archive, RunState &state)
     {
       archive &state.parameters &state.time &state.next_output &state.next_adaption;
+      archive                                                  &state.next_observation;
       raw(archive, state.rest);
       exchange(archive, state.cases);
       archive &state.last_velocity &state.has_begun &state.feeds;

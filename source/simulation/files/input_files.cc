@@ -1,4 +1,4 @@
-#include <graupel/mesh/gmsh_file.h>
+#include <graupel/dem/vessel/mesh_planes.h>
 #include <graupel/simulation/files/checkpoint.h>
 #include <graupel/simulation/files/input_files.h>
 
@@ -7,14 +7,14 @@ namespace graupel
   void
   check_input_files(const RunParameters &parameters)
   {
-    parameters.dem.walls.walls(parameters.cylinder); // reads the surfaces
-    if (!parameters.mesh.file.empty())
-      {
-        dealii::Triangulation<3> mesh;
-        const auto               boundaries = read_gmsh(parameters.mesh.file, mesh);
-        if (parameters.sweep.has_fluid())
-          parameters.flow.boundaries.by_id(boundaries);
-      }
+    // The coarsest mesh there is: what is in the file, unrefined.
+    MeshParameters coarse = parameters.mesh;
+    coarse.cell_size      = parameters.cylinder.diameter;
+    coarse.cell_height    = 0.;
+    const VesselMesh mesh(parameters.cylinder, coarse, MPI_COMM_SELF);
+    all_walls(parameters.dem.walls, mesh); // reads the surfaces
+    if (parameters.sweep.has_fluid())
+      parameters.flow.boundaries.by_id(mesh.boundaries());
     if (!parameters.filling.start_from.empty())
       read_bed(parameters.filling.start_from + "/bed.bin", parameters);
   }

@@ -13,9 +13,10 @@ namespace graupel
     /** Every parameter by its path, as text. */
     std::map<std::string, std::string> parameters;
 
-    double                  time          = 0.; // simulated [s]
-    double                  next_output   = 0.; // [s]
-    double                  next_adaption = 0.; // [s]
+    double                  time             = 0.; // simulated [s]
+    double                  next_output      = 0.; // [s]
+    double                  next_observation = 0.; // of packing [s]
+    double                  next_adaption    = 0.; // [s]
     BedResult               rest;
     std::vector<CaseResult> cases;                 // those that have ended
     double                  last_velocity = 0.;    // V of the last of them [m/s]
