@@ -91,7 +91,8 @@ namespace graupel
     result.shares_pressure = shares_pressure;
     for (NodalVector *field : {&solid_fraction, &scratch, &smooth_scratch})
       nodes.initialize(*field);
-    for (NodalVectorField *field : {&interstitial, &smooth_velocity, &smooth_gradient})
+    for (NodalVectorField *field :
+         {&interstitial, &smooth_velocity, &gradient, &smooth_gradient})
       for (NodalVector &component : *field)
         {
           nodes.initialize(component);
@@ -112,14 +113,17 @@ namespace graupel
   }
 
   void
-  Exchange::follow(const NodalVectorField &flux, const NodalVector &void_fraction)
+  Exchange::follow(const FlowSolver &flow, const NodalVector &void_fraction)
   {
+    gradient = flow.pressure_gradient();
     for (unsigned int i = 0; i < 3; ++i)
       {
         for (unsigned int k = 0; k < interstitial[i].locally_owned_size(); ++k)
           interstitial[i].local_element(k) =
-            flux[i].local_element(k) / void_fraction.local_element(k);
+            flow.flux()[i].local_element(k) / void_fraction.local_element(k);
         filter.smooth(smooth_velocity[i], interstitial[i]);
+        if (result.shares_pressure)
+          filter.smooth(smooth_gradient[i], gradient[i]);
       }
   }
 
@@ -186,9 +190,7 @@ namespace graupel
     const CostSheet::Scope timing(costs, CostSheet::exchange);
     find_drag_coefficients(particles);
     response = particle_response;
-    answer.resize(particles.n_owned);
-    for (unsigned int row = 0; row < particles.n_owned; ++row)
-      answer[row] = 1. / (1. + beta[row] * response.mobility[row]);
+    find_answers();
     if (!result.solids)
       result.solids.emplace(nodes);
     MovingSolids &solids = *result.solids;
@@ -217,6 +219,73 @@ namespace graupel
           return answer[row] * volume[row] * response.velocity[row][i];
         });
       }
+    put_back_old_fields();
+  }
+
+  void
+  Exchange::find_answers()
+  {
+    answer.resize(beta.size());
+    double least = 1.;
+    for (unsigned int row = 0; row < answer.size(); ++row)
+      {
+        answer[row] = 1. / (1. + beta[row] * response.mobility[row]);
+        least       = std::min(least, answer[row]);
+      }
+    least    = dealii::Utilities::MPI::min(least, nodes.mesh.communicator());
+    old_part = std::clamp(4. * least - 2., 0., 1.);
+  }
+
+  std::vector<double>
+  Exchange::old_force(const unsigned int i) const
+  {
+    std::vector<double> force, pressure(beta.size(), 0.);
+    transfer.sample(force, smooth_velocity[i]);
+    if (result.shares_pressure)
+      transfer.sample(pressure, smooth_gradient[i]);
+    for (unsigned int row = 0; row < beta.size(); ++row)
+      force[row] = beta[row] * force[row] - volume[row] * pressure[row];
+    return force;
+  }
+
+  void
+  Exchange::put_back_old_fields()
+  {
+    if (old_part == 0.)
+      return;
+    MovingSolids &solids = *result.solids;
+    const double  shared = result.shares_pressure ? 1. : 0.;
+    NodalVector   whole_drag, correction;
+    for (NodalVector *field : {&whole_drag, &correction})
+      nodes.initialize(*field);
+    spread(whole_drag, [&](const unsigned int row) { return beta[row]; });
+    const auto add = [&](NodalVector &x, const auto &value) {
+      for (unsigned int k = 0; k < x.locally_owned_size(); ++k)
+        x.local_element(k) += old_part * (correction.local_element(k) + value(k));
+      nodes.hanging_nodes.distribute(x);
+      x.update_ghost_values();
+    };
+    for (unsigned int i = 0; i < 3; ++i)
+      {
+        const auto force = old_force(i);
+        spread(correction,
+               [&](const unsigned int row) { return (1. - answer[row]) * force[row]; });
+        add(result.drag_source[i], [&](const unsigned int k) {
+          return (result.drag.local_element(k) - whole_drag.local_element(k)) *
+                   interstitial[i].local_element(k) +
+                 shared *
+                   (solid_fraction.local_element(k) -
+                    solids.pressure_share.local_element(k)) *
+                   gradient[i].local_element(k);
+        });
+        spread(correction, [&](const unsigned int row) {
+          return volume[row] * response.mobility[row] * answer[row] * force[row];
+        });
+        add(solids.flux[i], [&](const unsigned int k) {
+          return solids.by_gradient.local_element(k) * gradient[i].local_element(k) -
+                 solids.by_velocity.local_element(k) * interstitial[i].local_element(k);
+        });
+      }
   }
 
   std::vector<dealii::Tensor<1, 3>>
@@ -226,38 +295,34 @@ namespace graupel
                    const dealii::Tensor<1, 3> &gravity)
   {
     const CostSheet::Scope timing(costs, CostSheet::exchange);
-    const NodalVectorField pressure_gradient = flow.pressure_gradient();
-    follow(flow.flux(), result.void_fraction);
+    follow(flow, result.void_fraction);
 
     std::vector<dealii::Tensor<1, 3>> force(particles.n_owned);
-    std::vector<double>               velocity, gradient;
+    std::vector<double>               velocity, pressure;
     fluid_force = 0.;
     for (unsigned int i = 0; i < 3; ++i)
       {
         transfer.sample(velocity, smooth_velocity[i]);
-        gradient.assign(particles.n_owned, 0.);
+        pressure.assign(particles.n_owned, 0.);
         if (result.shares_pressure)
-          {
-            filter.smooth(smooth_gradient[i], pressure_gradient[i]);
-            transfer.sample(gradient, smooth_gradient[i]);
-          }
+          transfer.sample(pressure, smooth_gradient[i]);
         for (unsigned int row = 0; row < particles.n_owned; ++row)
           {
             force[row][i] =
               answer[row] * (beta[row] * (velocity[row] - response.velocity[row][i]) -
-                             volume[row] * gradient[row]);
+                             volume[row] * pressure[row]);
             fluid_force[i] += force[row][i];
           }
       }
     fluid_force = dealii::Utilities::MPI::sum(fluid_force, nodes.mesh.communicator());
     for (unsigned int row = 0; row < particles.n_owned; ++row)
       force[row] -= (volume[row] * density) * gravity;
-    keep_ledger(flow, pressure_gradient);
+    keep_ledger(flow);
     return force;
   }
 
   void
-  Exchange::keep_ledger(const FlowSolver &flow, const NodalVectorField &pressure_gradient)
+  Exchange::keep_ledger(const FlowSolver &flow)
   {
     const double         model_share = result.shares_pressure ? 1. : 0.;
     dealii::Tensor<1, 3> lost;
@@ -273,10 +338,10 @@ namespace graupel
           const double drag =
             result.drag.local_element(k) * flow.flux()[i].local_element(k) / alpha -
             result.drag_source[i].local_element(k);
-          const double gradient = pressure_gradient[i].local_element(k);
-          const double measure  = nodes.measure().local_element(k);
-          lost[i] += measure * (drag + (model_share - share) * gradient);
-          traffic += measure * (std::abs(drag) + std::abs(share * gradient));
+          const double slope   = gradient[i].local_element(k);
+          const double measure = nodes.measure().local_element(k);
+          lost[i] += measure * (drag + (model_share - share) * slope);
+          traffic += measure * (std::abs(drag) + std::abs(share * slope));
         }
     // The solids' share of the pressure is what the fluid's leaves of the total, which
     // the flow finds without the gradient at the nodes.

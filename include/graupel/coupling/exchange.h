@@ -122,11 +122,11 @@ namespace graupel
     void update_drag(const ParticleArrays &particles, const ParticleResponse &response);
 
     /**
-     * Takes the slip velocities of the next update_drag() from @p flux [m/s] through
-     * @p void_fraction instead of the last forces(): where a flow is continued on
-     * another mesh or in another run.
+     * Takes velocities and pressure gradients for the next update_drag() from @p flow,
+     * past the bed of @p void_fraction, instead of the last forces(): where a flow is
+     * continued on another mesh or in another run. Collective.
      */
-    void follow(const NodalVectorField &flux, const NodalVector &void_fraction);
+    void follow(const FlowSolver &flow, const NodalVector &void_fraction);
 
     /** What the updates made. */
     const Medium &
@@ -184,12 +184,19 @@ namespace graupel
     // Mean over all particles.
     double mean(const std::vector<double> &values) const;
     void   find_drag_coefficients(const ParticleArrays &particles);
+    void   find_answers();
+    // Takes what a particle would answer to the fields of the last forces() node by node
+    // instead of particle by particle; in a bed at rest nothing is then left of the
+    // mobility.
+    void put_back_old_fields();
+    // beta_p (W S u)_p - V_p (W S grad p)_p of the last forces(), by row [N].
+    std::vector<double> old_force(const unsigned int i) const;
     // x = S M^-1 W^T of a function of the own rows.
     template <typename Function>
     void spread(NodalVector &x, const Function &value);
     // A power of the void fraction, smoothed, at each own particle.
     std::vector<double> smooth_power(const int exponent);
-    void keep_ledger(const FlowSolver &flow, const NodalVectorField &pressure_gradient);
+    void                keep_ledger(const FlowSolver &flow);
 
     const double                  filter_length;
     const LawVoidFraction         law;
@@ -203,9 +210,11 @@ namespace graupel
 
     NodalVectorField     interstitial;    // u [m/s]
     NodalVectorField     smooth_velocity; // S u [m/s]
+    NodalVectorField     gradient;        // grad p [Pa/m]
     NodalVectorField     smooth_gradient; // S grad p [Pa/m]
     std::vector<double>  volume, beta;    // by row [m^3], [kg/s]
     std::vector<double>  answer;          // D by row
+    double               old_part = 0.;   // of put_back_old_fields() [-]
     ParticleResponse     response;        // by row
     std::vector<double>  flow_alpha;      // alpha by row
     std::vector<double>  law_alpha;       // alpha' by row

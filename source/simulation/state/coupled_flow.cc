@@ -130,10 +130,10 @@ namespace graupel
       }
     const NodalVectorField flux{fields[0], fields[1], fields[2]};
     particles_and_fluid->update_bed(dem.store(), dem.particles());
-    particles_and_fluid->follow(flux, exchange().medium().void_fraction);
     solver->set_superficial_velocity(superficial_velocity);
     solver->set_time(time);
     solver->continue_from(flux, fields[3], exchange().medium().void_fraction);
+    particles_and_fluid->follow(fluid(), exchange().medium().void_fraction);
     find_stable_step();
   }
 
@@ -150,7 +150,7 @@ namespace graupel
     superficial_velocity = history.last_velocity;
     look_at_bed();
     // The slip of the next drag is that of the last step, through the bed as it was then.
-    particles_and_fluid->follow(fluid().flux(), fluid().void_fraction());
+    particles_and_fluid->follow(fluid(), fluid().void_fraction());
   }
 
   FlowSolver::Report
