@@ -1,5 +1,7 @@
 #include <graupel/coupling/particle_response.h>
 
+#include <algorithm>
+
 namespace graupel
 {
   namespace
@@ -22,13 +24,14 @@ namespace graupel
   }
 
   ParticleResponse
-  particle_response(const Dem                  &dem,
-                    const dealii::Tensor<1, 3> &gravity,
-                    const double                density,
-                    const double                step)
+  particle_response(
+    const ParticleArrays                                              &particles,
+    const std::function<dealii::Tensor<1, 3>(const unsigned int row)> &contact_force,
+    const dealii::Tensor<1, 3>                                        &gravity,
+    const double                                                       density,
+    const double                                                       step)
   {
-    const ParticleArrays &particles = dem.particles();
-    ParticleResponse      response  = held_response(particles);
+    ParticleResponse response = held_response(particles);
     for (unsigned int row = 0; row < particles.n_owned; ++row)
       {
         const double mass     = particles.mass[row];
@@ -39,8 +42,7 @@ namespace graupel
         const auto   outside  = before + mass * gravity;
         const double square   = outside.norm_square();
         const double carried =
-          square > 0. ? std::clamp(-(dem.contact_force(row) * outside) / square, 0., 1.)
-                      : 0.;
+          square > 0. ? std::clamp(-(contact_force(row) * outside) / square, 0., 1.) : 0.;
         const double clear =
           std::min(1., square / (clear_force * clear_force * weight.norm_square()));
         const double mobility =

@@ -1,5 +1,6 @@
 #include <graupel/base/parameters.h>
 #include <graupel/coupling/exchange.h>
+#include <graupel/dem/dem.h>
 
 #include <gtest/gtest.h>
 
@@ -50,8 +51,14 @@ namespace
         {
           exchange.update_bed(dem.store(), dem.particles());
           if (answering)
-            exchange.update_drag(dem.particles(),
-                                 particle_response(dem, {}, air.density, 1e-3));
+            exchange.update_drag(
+              dem.particles(),
+              particle_response(
+                dem.particles(),
+                [&](const unsigned int row) { return dem.contact_force(row); },
+                {},
+                air.density,
+                1e-3));
           else
             exchange.update_drag(dem.particles());
           flow.step(exchange.medium(), answering ? 1e-3 : FlowSolver::steady);

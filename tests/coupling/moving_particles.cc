@@ -1,5 +1,6 @@
 #include <graupel/base/parameters.h>
 #include <graupel/coupling/exchange.h>
+#include <graupel/dem/dem.h>
 #include <graupel/dem/particles/dem_error.h>
 
 #include <gtest/gtest.h>
@@ -64,8 +65,14 @@ namespace
       dem.synchronise();
       exchange.update_bed(dem.store(), dem.particles());
       if (answering)
-        exchange.update_drag(dem.particles(),
-                             particle_response(dem, gravity, water.density, dt));
+        exchange.update_drag(
+          dem.particles(),
+          particle_response(
+            dem.particles(),
+            [&](const unsigned int row) { return dem.contact_force(row); },
+            gravity,
+            water.density,
+            dt));
       else
         exchange.update_drag(dem.particles());
       flow.step(exchange.medium(), dt);

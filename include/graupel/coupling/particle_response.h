@@ -1,7 +1,9 @@
 #ifndef graupel_coupling_particle_response_h
 #define graupel_coupling_particle_response_h
 
-#include <graupel/dem/dem.h>
+#include <graupel/dem/particles/particle_arrays.h>
+
+#include <functional>
 
 namespace graupel
 {
@@ -34,10 +36,12 @@ namespace graupel
    * It is small where a particle is held beyond doubt. @p gravity [m/s^2]; buoyancy in a
    * fluid of @p density [kg/m^3].
    */
-  ParticleResponse particle_response(const Dem                  &dem,
-                                     const dealii::Tensor<1, 3> &gravity,
-                                     const double                density,
-                                     const double                step);
+  ParticleResponse particle_response(
+    const ParticleArrays                                              &particles,
+    const std::function<dealii::Tensor<1, 3>(const unsigned int row)> &contact_force,
+    const dealii::Tensor<1, 3>                                        &gravity,
+    const double                                                       density,
+    const double                                                       step);
 } // namespace graupel
 
 #endif

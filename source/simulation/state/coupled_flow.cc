@@ -163,11 +163,15 @@ namespace graupel
   FlowSolver::Report
   CoupledFlow::flow_past_bed(const double step)
   {
-    const double               density = parameters.fluid.density;
-    const dealii::Tensor<1, 3> gravity = parameters.dem.gravity();
+    const double               density       = parameters.fluid.density;
+    const dealii::Tensor<1, 3> gravity       = parameters.dem.gravity();
+    const auto                 contact_force = [&](const unsigned int row) {
+      return dem.contact_force(row);
+    };
     if (std::isfinite(step))
-      particles_and_fluid->update_drag(dem.particles(),
-                                       particle_response(dem, gravity, density, step));
+      particles_and_fluid->update_drag(
+        dem.particles(),
+        particle_response(dem.particles(), contact_force, gravity, density, step));
     else
       particles_and_fluid->update_drag(dem.particles());
     const auto report = solver->step(particles_and_fluid->medium(), step);
