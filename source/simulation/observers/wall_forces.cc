@@ -49,12 +49,15 @@ namespace graupel
     };
     for (unsigned int wall = 0; wall < state.dem.vessel().size(); ++wall)
       write(state.dem.force_on(wall));
-    if (state.parameters.sweep.has_fluid())
-      for (const auto &boundary : state.mesh.boundaries())
+    if (!state.parameters.sweep.has_fluid())
+      return text.str();
+    for (const auto &boundary : state.mesh.boundaries())
+      {
         if (state.fluid)
           write(state.fluid->fluid().force_on(boundary.second));
         else
           text << ",,,";
+      }
     return text.str();
   }
 } // namespace graupel

@@ -1,0 +1,87 @@
+"""A run that is killed in any phase and gone on with is the run that was not: bit by bit
+on the same number of ranks. Called with the path of the binary.
+"""
+
+import os
+import shutil
+import signal
+import subprocess
+import time
+
+from runs import ROOT, Program, RunTest, main, overrides
+
+CASES = ROOT / "tests" / "cases"
+# A checkpoint after each step.
+ALWAYS = {"Output/checkpoint interval": 1e-6}
+
+
+class KilledRuns(RunTest):
+    """Filling, settling and flow, each killed once."""
+
+    def setUp(self):
+        super().setUp()
+        shutil.copytree(CASES, self.path, dirs_exist_ok=True)
+
+    def kill_in(self, phase, file, values):
+        """Kills a run when monitors.csv has some rows of the phase and a checkpoint lies
+        behind them."""
+        output = self.path / "killed"
+        arguments = [Program.path, file, "--output", "killed", *overrides({**values, **ALWAYS})]
+        environment = dict(os.environ, OMP_NUM_THREADS="1")
+        run = subprocess.Popen(
+            arguments, cwd=self.path, env=environment, stdout=subprocess.DEVNULL
+        )
+        monitors = output / "monitors.csv"
+        # 100 spheres are in after 20 ms.
+        rows_before = 1 if phase == "fill" else 3
+        for _ in range(6000):
+            rows = monitors.read_text().splitlines() if monitors.exists() else []
+            in_phase = [row for row in rows if f",{phase}," in row]
+            if len(in_phase) >= rows_before and (output / "checkpoint").is_dir():
+                break
+            self.assertIsNone(run.poll(), f"it ended before that many rows of {phase}")
+            time.sleep(0.001)
+        run.send_signal(signal.SIGKILL)
+        run.wait()
+        return output
+
+    def expect_the_same(self, file, values, phases):
+        whole = self.run_file(file, values, output="whole")
+        self.assertEqual(whole.status, 0, whole)
+        for phase in phases:
+            shutil.rmtree(self.path / "killed", ignore_errors=True)
+            output = self.kill_in(phase, file, values)
+            self.assertFalse((output / "summary.json").exists())
+            resumed = self.run_file(file, values, "--resume", output="killed")
+            self.assertEqual(resumed.status, 0, resumed)
+            self.assertIn("resumed at", resumed.said)
+            for name in ("monitors.csv", "wall-forces.csv"):
+                one, other = (
+                    (folder / name).read_text().splitlines()
+                    for folder in (whole.directory, output)
+                )
+                self.assertEqual(len(one), len(other), f"{name}, killed in {phase}")
+                for there, here in zip(one, other):
+                    self.assertEqual(there, here, f"{name}, killed in {phase}")
+
+    def test_a_bed_that_moves(self):
+        self.expect_the_same("restart.prm", {}, ("fill", "settle", "flow"))
+
+    def test_a_rain_at_a_rate(self):
+        self.expect_the_same("rate.prm", {}, ("fill", "settle"))
+
+    def test_walls_that_move_and_a_feed(self):
+        values = {
+            "Flow/mode": "particles alone",
+            "Flow/duration": 0.3,
+            "Flow/time step": 2e-3,
+            "Walls/planes": "piston: 0 0 0.003 0 0 -1",
+            "Walls/motion": "piston = velocity 0; 0; 0.02*sin(40*t)",
+            "Feed/rate": 77,
+            "Output/report": "false",
+        }
+        self.expect_the_same("bed20.prm", values, ("flow",))
+
+
+if __name__ == "__main__":
+    main()
