@@ -164,9 +164,8 @@ namespace graupel
   {
     const CellState state    = gather(point.cell, medium);
     const double    pressure = space.value(point, outlet.pressure);
-    // Momentum that must not enter, a velocity.
-    const double backflow =
-      returning * density * std::max(0., -space.normal_component(point, carrier));
+    // Momentum that must not enter: rho |q n| (u - (1 - returning) n n u).
+    const double inflow = density * std::max(0., -space.normal_component(point, carrier));
     dealii::Tensor<1, 3> traction;
     for (unsigned int i = 0; i < 3; ++i)
       traction[i] = space.value(point, outlet_traction[i]);
@@ -186,8 +185,11 @@ namespace graupel
                 cell_matrix(row + i, column + 3) -=
                   state.pressure_share[a] * mass * point.normal[i];
                 cell_matrix(row + 3, column + i) += mass * point.normal[i];
-                cell_matrix(row + i, column + i) +=
-                  backflow * mass / state.void_fraction[b];
+                const double entering = inflow * mass / state.void_fraction[b];
+                cell_matrix(row + i, column + i) += entering;
+                for (unsigned int j = 0; j < 3; ++j)
+                  cell_matrix(row + i, column + j) -=
+                    (1. - returning) * entering * point.normal[i] * point.normal[j];
               }
           }
       }

@@ -144,25 +144,36 @@ TEST(OpenBoundaries, AnInflowHasTheStaticPressureThatIsGiven)
 
 TEST(OpenBoundaries, AVortexThatComesBackThroughAnOutletStaysTame)
 {
-  // Gas at 3 m/s through half of the bottom, over a free column of one diameter: what
-  // leaves turns and comes back. Nothing may be faster for long than what enters.
-  Column column({0.025, 0.025},
-                between("velocity 0; 0; V*(x>0)", "pressure 100"),
-                4e-3,
-                air_density,
-                1e-5);
-  column.set([](const auto &) { return 1.; }, [](const auto &) { return 0.; });
-  column.flow.set_superficial_velocity(3.);
-  double fastest = 0.;
-  for (unsigned int n = 0; n < 80; ++n)
+  // Free gas in a short column: a jet through half of the bottom; a bottom that spins and
+  // draws fluid in along the axis, as much as it throws out; a swirl that on the whole
+  // draws fluid in. Nothing may be faster for long than what drives it. Without a term at
+  // the boundary the second fails, without one for the tangential velocity the third.
+  struct Case
+  {
+    std::string bottom;
+    double      step, fastest;
+  };
+  for (const Case &flow :
+       {Case{"velocity 0; 0; 3*(x>0)", 1e-3, 3.},
+        Case{"velocity -300*y; 300*x; 0", 2e-3, 300. * 0.0125},
+        Case{"velocity -4000*y; 4000*x; 10*(1-4*(x*x+y*y)/1.6e-4)", 1e-3, 50.}})
     {
-      column.flow.step(column.medium, 1e-3);
-      if (n >= 20)
-        for (const NodalVector &component : column.flow.flux())
-          fastest = std::max(fastest, component.linfty_norm());
+      Column column({0.025, flow.step < 2e-3 ? 0.012 : 0.025},
+                    between(flow.bottom, "pressure 100"),
+                    4e-3,
+                    air_density,
+                    1e-5);
+      double fastest = 0.;
+      for (unsigned int n = 0; n < 80; ++n)
+        {
+          column.flow.step(column.medium, flow.step);
+          if (n >= 20)
+            for (const NodalVector &component : column.flow.flux())
+              fastest = std::max(fastest, component.linfty_norm());
+        }
+      say() << flow.bottom << ": largest flux " << fastest << " m/s\n";
+      EXPECT_LE(fastest, 1.2 * flow.fastest);
     }
-  say() << "vortex: largest flux " << fastest << " m/s\n";
-  EXPECT_LE(fastest, 1.3 * 3.);
 }
 
 TEST(OpenBoundaries, AVesselAtRestReportsNoImbalance)

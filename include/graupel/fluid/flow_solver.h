@@ -76,15 +76,16 @@ namespace graupel
    * until it no longer changes ("nonlinear iterations").
    *
    * Pressures are prescribed weakly: on the boundary the fluid has the static pressure
-   * that is given, also where it enters and brings its momentum along. What comes back
-   * through a boundary that more leaves than enters, as a vortex does, enters without
-   * momentum. With q the flux, Q+ and Q- the volumes that leave and enter through the
-   * whole boundary, and n its outward normal, the momentum equation has there
+   * that is given, also where it enters and brings its momentum along, at a right angle.
+   * What comes back through a boundary that more leaves than enters, as a vortex does,
+   * enters without momentum. With q the flux, n the outward normal, and Q+ and Q- the
+   * volumes that leave and enter through the whole boundary, the momentum equation has
    *
-   *   -psi w p n = -psi w p_prescribed n - psi rho min(1, Q+ / Q-) max(0, -q n) u.
+   *   -w p n = -w p_prescribed n - rho max(0, -q n) (u - (1 - r) n n u),
+   *   r = min(1, Q+ / Q-),
    *
-   * With the factor 1 it is the backflow stabilisation of Moghadam, Bazilevs et al.
-   * (2011), doi:10.1007/s00466-011-0599-0.
+   * there. With r = 1 it is the backflow stabilisation of Esmaily Moghadam et al. (2011),
+   * doi:10.1007/s00466-011-0599-0, which a uniform inflow pays rho u^2 for.
    *
    * Summed over all test functions the continuity equation says inflow = outflow +
    * stored, to the tolerance of the linear solver. In a vessel without a prescribed
