@@ -29,9 +29,11 @@ namespace graupel
     const std::function<dealii::Tensor<1, 3>(const unsigned int row)> &contact_force,
     const dealii::Tensor<1, 3>                                        &gravity,
     const double                                                       density,
-    const double                                                       step)
+    const double                                                       step,
+    const double                                                       longest_step)
   {
     ParticleResponse response = held_response(particles);
+    const double     of_step  = std::clamp(4. * step / longest_step - 1., 0., 1.);
     for (unsigned int row = 0; row < particles.n_owned; ++row)
       {
         const double mass     = particles.mass[row];
@@ -45,8 +47,9 @@ namespace graupel
           square > 0. ? std::clamp(-(contact_force(row) * outside) / square, 0., 1.) : 0.;
         const double clear =
           std::min(1., square / (clear_force * clear_force * weight.norm_square()));
-        const double mobility =
-          (1. - (1. - held_mobility) * clear * carried) * step / mass;
+        const double of_fluid  = std::min(1., 10. * density * volume / mass);
+        const double held      = held_mobility * std::max(of_step, of_fluid);
+        const double mobility  = (1. - (1. - held) * clear * carried) * step / mass;
         response.mobility[row] = mobility;
         response.velocity[row] +=
           (1. - carried) * step / mass * outside + mobility * (buoyancy - before);

@@ -66,7 +66,10 @@ namespace graupel
     saved.written             = files.written();
     saved.has_fluid           = state.fluid.has_value();
     if (state.fluid)
-      saved.fluid = state.fluid->fluid().history();
+      {
+        saved.fluid       = state.fluid->fluid().history();
+        saved.stable_step = state.fluid->stable_step();
+      }
     saved.phase_number = phase_number;
     if (phase_now != nullptr)
       saved.phase = phase_now->save();
@@ -135,7 +138,7 @@ namespace graupel
     if (saved.has_fluid)
       {
         state.make_fluid();
-        state.fluid->load(saved.fluid);
+        state.fluid->load(saved.fluid, saved.stable_step);
       }
     std::ostringstream text;
     text << "resumed at " << state.time << " s, " << state.dem.n_global()

@@ -33,15 +33,20 @@ namespace graupel
    * A free particle has lambda = 0 and k = step / m, which makes this the implicit step.
    * One that rests has lambda = 1, and whatever k is, its velocity is 0 when F no longer
    * changes: k then only delays the force by about dt beta / (m alpha^2) m k / dt steps.
-   * It is small where a particle is held beyond doubt. @p gravity [m/s^2]; buoyancy in a
-   * fluid of @p density [kg/m^3].
+   * It is small where a particle is held beyond doubt, and 0 there if the particle is
+   * heavy beside the fluid and the step short beside @p longest_step [s], which the
+   * particles' response bears without any (stable_step()): a bed that rests in a gas then
+   * has the flow that it would have at any step. @p gravity [m/s^2]; buoyancy in a fluid
+   * of
+   * @p density [kg/m^3].
    */
   ParticleResponse particle_response(
     const ParticleArrays                                              &particles,
     const std::function<dealii::Tensor<1, 3>(const unsigned int row)> &contact_force,
     const dealii::Tensor<1, 3>                                        &gravity,
     const double                                                       density,
-    const double                                                       step);
+    const double                                                       step,
+    const double                                                       longest_step = 0.);
 } // namespace graupel
 
 #endif

@@ -144,13 +144,14 @@ namespace graupel
   }
 
   void
-  CoupledFlow::load(const FlowHistory &history)
+  CoupledFlow::load(const FlowHistory &history, const double stable_step)
   {
     solver->restore(history);
     superficial_velocity = history.last_velocity;
     look_at_bed();
     // The slip of the next drag is that of the last step, through the bed as it was then.
     particles_and_fluid->follow(fluid(), fluid().void_fraction());
+    longest_step = stable_step;
   }
 
   FlowSolver::Report
@@ -171,7 +172,8 @@ namespace graupel
     if (std::isfinite(step))
       particles_and_fluid->update_drag(
         dem.particles(),
-        particle_response(dem.particles(), contact_force, gravity, density, step));
+        particle_response(
+          dem.particles(), contact_force, gravity, density, step, longest_step));
     else
       particles_and_fluid->update_drag(dem.particles());
     const auto report = solver->step(particles_and_fluid->medium(), step);

@@ -51,7 +51,6 @@ namespace graupel
     feed_particles(frame, aim);
     const double step = step_fluid(aim);
     state.adapt_if_due();
-    response_limit = state.fluid->stable_step();
     frame.move_particles(step);
     state.progress.update(frame.time());
     return true;
@@ -73,8 +72,7 @@ namespace graupel
     const double rate = frame.state.fluid->fluid().courant_rate();
     if (sweep.courant_number > 0. && rate > 0.)
       keep_to(sweep.courant_number / rate, "Flow/Courant number");
-    keep_to(response_limit.value_or(frame.state.fluid->stable_step()),
-            "the particles' response to the drag");
+    keep_to(frame.state.fluid->stable_step(), "the particles' response to the drag");
     tell_what_rules(rule, step);
     return even_step(remaining, step);
   }
@@ -119,19 +117,13 @@ namespace graupel
   std::string
   MovingFlow::save() const
   {
-    const std::pair<double, double> limits{step_limit, response_limit.value_or(0.)};
-    return to_bytes(std::make_pair(limits, ruled_by));
+    return to_bytes(std::make_pair(step_limit, ruled_by));
   }
 
   void
   MovingFlow::resume(const std::string &saved)
   {
-    const auto record =
-      from_bytes<std::pair<std::pair<double, double>, std::string>>(saved);
-    step_limit = record.first.first;
-    ruled_by   = record.second;
-    if (record.first.second > 0.)
-      response_limit = record.first.second;
+    std::tie(step_limit, ruled_by) = from_bytes<std::pair<double, std::string>>(saved);
   }
 
   ParticlesAlone::ParticlesAlone(FlowFrame &frame)

@@ -35,6 +35,7 @@ namespace graupel
 
     bool        has_fluid = false;
     FlowHistory fluid;
+    double      stable_step = 0.; // CoupledFlow::stable_step() [s]
   };
 
   /**

@@ -69,7 +69,7 @@ namespace graupel
      * mesh that VesselMesh has loaded from the same file and past the particles where
      * they are: as if nothing had been in between. Collective.
      */
-    void load(const FlowHistory &history);
+    void load(const FlowHistory &history, const double stable_step);
 
     /**
      * The longest step [s] that follows the answer of the particles to the fluid, as of

@@ -24,8 +24,6 @@ namespace graupel
     const double duration;   // at most [s]
     double       step_limit; // after a step that failed [s]
     std::string  ruled_by;   // what the length of a step follows
-    // The longest step that follows the particles' answer, as of the last one [s].
-    std::optional<double> response_limit;
   };
 
   /** Particles move without a fluid. */
