@@ -7,6 +7,9 @@ namespace graupel
 {
   namespace
   {
+    // Of the filtered solid fraction at a particle, whatever the filter's overshoot [-].
+    constexpr double least_solids = 1e-3;
+
     [[noreturn]] void
     fail_at(const dealii::Point<3> &position, const std::string &reason)
     {
@@ -163,7 +166,9 @@ namespace graupel
           }
         catch (const std::exception &error)
           {
-            fail_at(particles.body[row].position, error.what());
+            fail_at(particles.body[row].position,
+                    error.what() + (", where the void fraction of the flow is " +
+                                    std::to_string(flow_alpha[row])));
           }
       }
   }
@@ -220,6 +225,7 @@ namespace graupel
         });
       }
     put_back_old_fields();
+    yield_to_pressure();
   }
 
   void
@@ -285,6 +291,30 @@ namespace graupel
           return solids.by_gradient.local_element(k) * gradient[i].local_element(k) -
                  solids.by_velocity.local_element(k) * interstitial[i].local_element(k);
         });
+      }
+  }
+
+  void
+  Exchange::yield_to_pressure()
+  {
+    MovingSolids &solids = *result.solids;
+    NodalVector   yielding;
+    nodes.initialize(yielding);
+    spread(yielding, [&](const unsigned int row) {
+      return response.yielding[row] * volume[row] * volume[row] /
+             std::max(1. - flow_alpha[row], least_solids);
+    });
+    if (!result.shares_pressure)
+      solids.by_gradient = 0.;
+    solids.by_gradient += yielding;
+    solids.by_gradient.update_ghost_values();
+    for (unsigned int i = 0; i < 3; ++i)
+      {
+        for (unsigned int k = 0; k < yielding.locally_owned_size(); ++k)
+          solids.flux[i].local_element(k) +=
+            yielding.local_element(k) * gradient[i].local_element(k);
+        nodes.hanging_nodes.distribute(solids.flux[i]);
+        solids.flux[i].update_ghost_values();
       }
   }
 

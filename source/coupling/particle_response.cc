@@ -6,9 +6,9 @@ namespace graupel
 {
   namespace
   {
-    // Mobility of a particle that contacts hold, over that of a free one [-]. Contacts
-    // give way a little within a step; with none, light spheres at rest ring.
-    constexpr double held_mobility = 0.2;
+    // Mobility of a held particle about to come loose, and of a light one that is held
+    // beyond doubt, over that of a free one [-].
+    constexpr double loose_part = 0.5, light_part = 0.2;
     // Where the force from outside is below this part of the weight, a particle is about
     // to lift or to come to rest, and contacts say little about what it will do [-].
     constexpr double clear_force = 0.3;
@@ -18,6 +18,7 @@ namespace graupel
   {
     ParticleResponse response;
     response.mobility.assign(particles.n_owned, 0.);
+    response.yielding.assign(particles.n_owned, 0.);
     for (unsigned int row = 0; row < particles.n_owned; ++row)
       response.velocity.push_back(particles.body[row].velocity);
     return response;
@@ -29,11 +30,9 @@ namespace graupel
     const std::function<dealii::Tensor<1, 3>(const unsigned int row)> &contact_force,
     const dealii::Tensor<1, 3>                                        &gravity,
     const double                                                       density,
-    const double                                                       step,
-    const double                                                       longest_step)
+    const double                                                       step)
   {
     ParticleResponse response = held_response(particles);
-    const double     of_step  = std::clamp(4. * step / longest_step - 1., 0., 1.);
     for (unsigned int row = 0; row < particles.n_owned; ++row)
       {
         const double mass     = particles.mass[row];
@@ -45,14 +44,16 @@ namespace graupel
         const double square   = outside.norm_square();
         const double carried =
           square > 0. ? std::clamp(-(contact_force(row) * outside) / square, 0., 1.) : 0.;
-        const double clear =
-          std::min(1., square / (clear_force * clear_force * weight.norm_square()));
-        const double of_fluid  = std::min(1., 10. * density * volume / mass);
-        const double held      = held_mobility * std::max(of_step, of_fluid);
-        const double mobility  = (1. - (1. - held) * clear * carried) * step / mass;
-        response.mobility[row] = mobility;
-        response.velocity[row] +=
-          (1. - carried) * step / mass * outside + mobility * (buoyancy - before);
+        const double loose =
+          std::max(0., 1. - square / (clear_force * clear_force * weight.norm_square()));
+        const double light   = std::clamp(density * volume / mass - 1., 0., 1.);
+        const double unbound = (1. - carried) * step / mass;
+        const double giving =
+          light * carried * (light_part + (1. - light_part) * loose) * step / mass;
+        response.mobility[row] = unbound + giving;
+        response.yielding[row] =
+          (1. - light) * carried * loose_part * loose * step / mass;
+        response.velocity[row] += unbound * weight + giving * (buoyancy - before);
       }
     return response;
   }

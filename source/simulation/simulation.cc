@@ -1,5 +1,6 @@
 #include <graupel/dem/bed/bed_profiles.h>
 #include <graupel/simulation/observers/wall_forces.h>
+#include <graupel/simulation/parameters/step_limits.h>
 #include <graupel/simulation/phases/original_bed.h>
 #include <graupel/simulation/phases/packing_phases.h>
 #include <graupel/simulation/simulation.h>
@@ -64,6 +65,8 @@ namespace graupel
     if (const std::string difference = state.dem.vessel_shape().difference();
         !difference.empty())
       state.progress.say("warning: " + difference);
+    for (const std::string &warning : warnings(state.parameters))
+      state.progress.say("warning: " + warning);
     if (checkpoint)
       go_on_from(checkpoint->first);
     while (phase_number < n_phases())

@@ -231,6 +231,29 @@ class InTime(CaseTest):
         self.assert_close(case["pressure_drop"], 14.90, 0.02, "pressure drop")
         self.assertLess(run.rows("monitors.csv")[-1]["maximum_speed"], 5e-3)
 
+    def test_a_step_of_its_own_keeps_to_the_response(self):
+        run = self.finished("water", {"Flow/flow-throughs": 0.02, "Flow/ramp time": 0})
+        self.assertIn("by the particles' response to the drag", run.said)
+        self.assertNotIn("warning", run.said)
+
+    def test_a_step_beyond_the_response_is_kept_and_told(self):
+        # 0.4 mm glass in water responds within 1.2 ms; the case lasts 0.03 s, six steps.
+        values = {"Flow/flow-throughs": 0.02, "Flow/ramp time": 0, "Flow/time step": 5e-3}
+        checked = self.run_case("water", values, "--check").said
+        self.assertIn("step of the fluid by the particles' response", checked)
+        self.assertIn("warning: in a bed at rest Flow/time step = 0.005 s", checked)
+        run = self.finished("water", values)
+        self.assertIn("warning: at ", run.said)
+        self.assertIn("Try auto", run.said)
+        rows = [row for row in run.rows("monitors.csv") if row["phase"] == "flow"]
+        self.assertEqual(len(rows), 6)
+
+    def test_filters_and_scales_that_resolve_nothing_are_told(self):
+        values = {"Flow/superficial velocities": 0.3, "Coupling/filter length": 5e-4}
+        self.assertIn("its own disturbance", self.run_case("bed20", values, "--check").said)
+        values = {"Flow/superficial velocities": 0.3, "Particles/scale": 2, "Filling/count": 20}
+        self.assertIn("across the vessel", self.run_case("bed20", values, "--check").said)
+
     def test_corks_float_to_the_lid(self):
         run = self.finished("cork")
         # 100 spheres at a void fraction of 0.46 are 7 mm of bed, here below the lid.

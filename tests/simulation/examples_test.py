@@ -230,10 +230,11 @@ class Studies(ExampleTest):
         self.assertEqual(len(rows), 2)
         for row in rows:
             self.assert_within(row["value"], 99.8, 0.2, "pressure drop")
-        self.assert_close(rows[1]["value"], rows[0]["value"], 1e-3, "of the finer step")
+        # 1e-4 of the bed's height, what it moves while the flow sets in, is 4e-4 of the drop.
+        self.assert_close(rows[1]["value"], rows[0]["value"], 1e-4, "of the finer step")
 
     def test_a_case_within_its_ramp_is_refused(self):
-        run = self.run_file(EXAMPLES / "studies/time-step.prm", {"Flow/ramp time": 0.1})
+        run = self.run_file(EXAMPLES / "studies/time-step.prm", {"Flow/ramp time": 0.2})
         self.assertEqual(run.status, 1, run)
         self.assertIn("Flow/ramp time", run.refusal)
         self.assertFalse(run.directory.exists())

@@ -179,9 +179,9 @@ TEST(Study, FailedLevelsAreToldOnAllRanks)
   std::vector<std::string> directories;
   const auto run = [&](const RunParameters &own, const std::string &directory) {
     directories.push_back(std::filesystem::path(directory).filename());
-    if (own.sweep.time_step == 4e-3 && own.filling.seed != parameters.filling.seed)
+    if (own.sweep.fixed_step() == 4e-3 && own.filling.seed != parameters.filling.seed)
       throw std::runtime_error("The second bed is lost.");
-    return level(1., own.sweep.time_step);
+    return level(1., own.sweep.longest_step());
   };
   EXPECT_FALSE(run_study(parameters, run, folder.string(), progress, MPI_COMM_WORLD));
   EXPECT_EQ(directories,

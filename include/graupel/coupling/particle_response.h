@@ -17,6 +17,9 @@ namespace graupel
     std::vector<dealii::Tensor<1, 3>> velocity;
     /** By row, 0 for a particle that is held [s/kg]. */
     std::vector<double> mobility;
+    /** By row: mobility of a held particle for a change of the force since the last step,
+     * as contacts may give way; it acts on continuity alone [s/kg]. */
+    std::vector<double> yielding;
   };
 
   /** They go on as they do, whatever the fluid does. */
@@ -25,28 +28,32 @@ namespace graupel
   /**
    * What particles do within @p step [s]. Under the last force of the fluid F_0 and the
    * weight in the fluid, A together, contacts with the force L carry the part
-   * lambda = min(1, max(0, -L A / A^2)) now; another force moves a particle with the
-   * mobility k:
+   * lambda = min(1, max(0, -L A / A^2)) now, and will carry it of any force:
    *
-   *   v + (1 - lambda) step / m A + k (F - F_0).
+   *   v + (1 - lambda) step / m (F + m g).
    *
-   * A free particle has lambda = 0 and k = step / m, which makes this the implicit step.
-   * One that rests has lambda = 1, and whatever k is, its velocity is 0 when F no longer
-   * changes: k then only delays the force by about dt beta / (m alpha^2) m k / dt steps.
-   * It is small where a particle is held beyond doubt, and 0 there if the particle is
-   * heavy beside the fluid and the step short beside @p longest_step [s], which the
-   * particles' response bears without any (stable_step()): a bed that rests in a gas then
-   * has the flow that it would have at any step. @p gravity [m/s^2]; buoyancy in a fluid
-   * of
-   * @p density [kg/m^3].
+   * A free particle has lambda = 0, which makes this the implicit step. One that rests
+   * has lambda = 1 and stays, so that a bed at rest has the same flow with any step. It
+   * may come loose where A is small, though. It then yields to a change of the force,
+   *
+   *   yielding = (1 - l) lambda step / (2 m) max(0, 1 - (A / (0.3 m g'))^2),
+   *
+   * with the weight in the fluid m g'. Half of a free mobility is enough: a bed that
+   * comes loose unforeseen is stable with a quarter of it over 1 - alpha. Particles
+   * lighter than the fluid bounce, and the fluid's inertia with them: l = min(1, rho V /
+   * m - 1) of one, if that is positive, also moves by
+   *
+   *   lambda l step / m (0.2 + 0.8 max(0, 1 - (A / (0.3 m g'))^2)) (F - F_0).
+   *
+   * Of both nothing is left when the force no longer changes. @p gravity [m/s^2];
+   * buoyancy in a fluid of @p density [kg/m^3].
    */
   ParticleResponse particle_response(
     const ParticleArrays                                              &particles,
     const std::function<dealii::Tensor<1, 3>(const unsigned int row)> &contact_force,
     const dealii::Tensor<1, 3>                                        &gravity,
     const double                                                       density,
-    const double                                                       step,
-    const double                                                       longest_step = 0.);
+    const double                                                       step);
 } // namespace graupel
 
 #endif

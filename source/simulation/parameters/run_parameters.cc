@@ -2,6 +2,7 @@
 #include <graupel/closures/bed_correlations.h>
 #include <graupel/simulation/parameters/probe_points.h>
 #include <graupel/simulation/parameters/run_parameters.h>
+#include <graupel/simulation/parameters/step_limits.h>
 
 #include <iomanip>
 #include <sstream>
@@ -118,6 +119,21 @@ namespace graupel
     return coupling.length(simulated_diameter());
   }
 
+  std::vector<DragOfType>
+  RunParameters::drags(const double sauter) const
+  {
+    std::vector<DragOfType> result;
+    const bool              is_mixture = coupling.mixture == "sauter mean";
+    for (const ParticleType &type : dem.types())
+      {
+        const double diameter = is_mixture ? sauter : type.diameter;
+        result.push_back({Drag(drag, fluid, diameter, type.scale),
+                          0.5 * type.scale * diameter,
+                          is_mixture});
+      }
+    return result;
+  }
+
   std::string
   RunParameters::describe() const
   {
@@ -139,9 +155,12 @@ namespace graupel
     text << "Steps\n";
     line("characteristic (Rayleigh) time of a contact", dem.characteristic_time(), "s");
     line("substep of the particles", dem.substep(), "s");
-    line("step of the fluid", sweep.time_step, "s");
-    line(
-      "substeps in a step of the fluid", std::ceil(sweep.time_step / dem.substep()), "");
+    line(sweep.fixed_step() ? "step of the fluid" : "step of the fluid, auto, at most",
+         sweep.longest_step(),
+         "s");
+    line("substeps in a step of the fluid",
+         std::ceil(sweep.longest_step() / dem.substep()),
+         "");
 
     const double bed_height = 0.9 * cylinder.height;
     const double load       = (1. - guessed_void_fraction) * dem.particles.density *
@@ -171,7 +190,13 @@ namespace graupel
              << ", Ergun's gradient " << gradient << " Pa/m = " << gradient / weight
              << " of the weight, at most "
              << sweep.case_duration(velocity, cylinder.height) << " s\n";
+        const StepLimits limits = limits_at_rest(*this, guessed_void_fraction, velocity);
+        text << "    step of the fluid by the particles' response " << limits.response
+             << " s, by the Courant number " << sweep.courant_number << " "
+             << limits.courant << " s\n";
       }
+    for (const std::string &warning : warnings(*this))
+      text << "warning: " << warning << '\n';
     return text.str();
   }
 } // namespace graupel

@@ -5,6 +5,24 @@
 
 namespace graupel
 {
+  namespace
+  {
+    // Steps of "auto" in the steady window at least [-].
+    constexpr double steps_in_window = 20.;
+  } // namespace
+
+  std::optional<double>
+  SweepParameters::fixed_step() const
+  {
+    return number_or_word("Flow/time step", time_step, {"auto"});
+  }
+
+  double
+  SweepParameters::longest_step() const
+  {
+    return fixed_step().value_or(steady_window / steps_in_window);
+  }
+
   std::vector<std::optional<double>>
   SweepParameters::cases() const
   {
@@ -72,19 +90,22 @@ namespace graupel
     prm.add_parameter(
       "time step",
       time_step,
-      "Step of the fluid, at most; particles take their own smaller substeps within it "
-      "[s].");
+      "Step of the fluid; particles take their own smaller substeps within it. auto: the "
+      "longest that resolves how the particles of a moving bed respond to the drag, and "
+      "the Courant number, at most a twentieth of the steady window. A number is kept "
+      "to, "
+      "and told where it is longer than these two [s].");
     prm.add_parameter(
       "ramp time",
       ramp_time,
       "Time in which the superficial velocity, or in steady flow its force on the "
       "particles, goes from that of one case to the next at the beginning of a case. A "
       "bed that is unloaded at once swings, and loosens; 0 for a jump [s].");
-    prm.add_parameter("Courant number",
-                      courant_number,
-                      "Largest speed times step over cell size: the step is shortened to "
-                      "hold it; 0: steps "
-                      "of Flow/time step whatever it is [-].");
+    prm.add_parameter(
+      "Courant number",
+      courant_number,
+      "Largest speed of the fluid times step over cell size that steps of "
+      "auto keep to; 0: whatever it is [-].");
     prm.add_parameter(
       "stop when",
       stop_when,
@@ -134,15 +155,15 @@ namespace graupel
               "Flow/duration",
               "a case of no superficial velocity has no flow-through to end with: give "
               "its duration, in seconds");
-    require(
-      time_step > 0. && std::isfinite(time_step),
-      "Flow/time step",
-      "the fluid needs a positive step, in seconds; 1e-3 to 5e-3 suits a packed bed");
+    const double step = fixed_step().value_or(1.);
+    require(step > 0. && std::isfinite(step),
+            "Flow/time step",
+            "the fluid needs a positive step, in seconds; auto finds one");
     require(
       flow_throughs > 0., "Flow/flow-throughs", "must be positive; the paper takes 2");
     require(
       steady_tolerance > 0., "Flow/steady tolerance", "must be positive; 1e-3 is usual");
-    require(steady_window >= 2. * time_step,
+    require(steady_window >= 2. * longest_step(),
             "Flow/steady window",
             "must hold at least two of Flow/time step");
     require(maximum_time > 0., "Flow/maximum time", "must be positive");

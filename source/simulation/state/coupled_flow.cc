@@ -49,21 +49,11 @@ namespace graupel
                    parameters.fluid.viscosity,
                    *node_space,
                    costs);
-    std::vector<DragOfType> drags;
-    const bool              is_mixture = parameters.coupling.mixture == "sauter mean";
-    const double            sauter     = dem.original_sauter_diameter();
-    for (const auto &type : parameters.dem.types())
-      {
-        const double diameter = is_mixture ? sauter : type.diameter;
-        drags.push_back({Drag(parameters.drag, parameters.fluid, diameter, type.scale),
-                         0.5 * type.scale * diameter,
-                         is_mixture});
-      }
     particles_and_fluid.emplace(
       parameters.filter_length(),
       parameters.coupling.model == "A",
       LawVoidFraction{parameters.coupling.bed_surface == "sharp", solid_ratio},
-      drags,
+      parameters.drags(dem.original_sauter_diameter()),
       *node_space,
       costs);
   }
@@ -172,8 +162,7 @@ namespace graupel
     if (std::isfinite(step))
       particles_and_fluid->update_drag(
         dem.particles(),
-        particle_response(
-          dem.particles(), contact_force, gravity, density, step, longest_step));
+        particle_response(dem.particles(), contact_force, gravity, density, step));
     else
       particles_and_fluid->update_drag(dem.particles());
     const auto report = solver->step(particles_and_fluid->medium(), step);

@@ -29,7 +29,7 @@ namespace graupel
     // What the mesh's own boundaries cannot have is said before the bed is made.
     if (parameters.sweep.has_fluid())
       parameters.flow.boundaries.by_id(mesh.boundaries());
-    const double substeps = parameters.sweep.time_step / dem.substep();
+    const double substeps = parameters.sweep.longest_step() / dem.substep();
     cell_share            = particle_substeps_of_cell / std::max(1., substeps);
   }
 
@@ -76,8 +76,8 @@ namespace graupel
   BedObservables::Bed
   SimulationState::bed() const
   {
-    return parameters.dem.particles.gravity_is_axial() ? observables.bed() :
-                                                         BedObservables::Bed();
+    return parameters.dem.particles.gravity_is_axial() ? observables.bed()
+                                                       : BedObservables::Bed();
   }
 
   double

@@ -1,12 +1,16 @@
+#include <graupel/simulation/parameters/step_limits.h>
 #include <graupel/simulation/state/bytes.h>
 #include <graupel/simulation/strategies/moving_flow.h>
 
+#include <boost/serialization/map.hpp>
 #include <boost/serialization/utility.hpp>
 
 namespace graupel
 {
   namespace
   {
+    const char *const response = "the particles' response to the drag";
+
     // A step of the fluid that fails is tried with its half, so often.
     constexpr unsigned int maximum_halvings = 6;
 
@@ -34,7 +38,7 @@ namespace graupel
     : frame(frame)
     , duration(frame.state.parameters.sweep.case_duration(
         frame.velocity.value_or(0.), frame.state.parameters.cylinder.height))
-    , step_limit(frame.state.parameters.sweep.time_step)
+    , step_limit(frame.state.parameters.sweep.longest_step())
   {
   }
 
@@ -44,7 +48,10 @@ namespace graupel
     const SweepParameters &sweep = frame.state.parameters.sweep;
     if (is_over(frame.time(), duration) ||
         (sweep.stop_when == "steady" && frame.steady.is_steady()))
-      return false;
+      {
+        tell_steps();
+        return false;
+      }
     SimulationState &state = frame.state;
     const double     aim   = next_step(duration - frame.time());
     state.fluid->set_superficial_velocity(frame.velocity_at(frame.time() + aim));
@@ -56,39 +63,68 @@ namespace graupel
     return true;
   }
 
+  std::vector<MovingFlow::Limit>
+  MovingFlow::limits() const
+  {
+    const SweepParameters &sweep = frame.state.parameters.sweep;
+    const CoupledFlow     &fluid = *frame.state.fluid;
+    const double           rate  = fluid.fluid().courant_rate();
+    std::vector<Limit>     result{{fluid.stable_step(), response}};
+    if (sweep.courant_number > 0. && rate > 0.)
+      result.push_back({sweep.courant_number / rate, "Flow/Courant number"});
+    return result;
+  }
+
   double
   MovingFlow::next_step(const double remaining)
   {
     const SweepParameters &sweep = frame.state.parameters.sweep;
-    double                 step  = std::min(sweep.time_step, step_limit);
-    std::string            rule;
-    const auto             keep_to = [&](const double limit, const std::string &name) {
-      if (limit < step)
-        {
-          step = limit;
-          rule = name;
-        }
+    Limit                  rule{sweep.longest_step(),
+               sweep.fixed_step() ? "Flow/time step" : "Flow/steady window"};
+    const auto             keep_to = [&](const Limit &limit) {
+      if (limit.step < rule.step)
+        rule = limit;
     };
-    const double rate = frame.state.fluid->fluid().courant_rate();
-    if (sweep.courant_number > 0. && rate > 0.)
-      keep_to(sweep.courant_number / rate, "Flow/Courant number");
-    keep_to(frame.state.fluid->stable_step(), "the particles' response to the drag");
-    tell_what_rules(rule, step);
-    return even_step(remaining, step);
+    if (sweep.fixed_step())
+      warn_of_long_steps(rule.step);
+    else
+      for (const Limit &limit : limits())
+        keep_to(limit);
+    keep_to({step_limit, "a step that has failed"});
+    const double step = even_step(remaining, rule.step);
+    tell_what_rules(rule.name, step);
+    return step;
+  }
+
+  void
+  MovingFlow::warn_of_long_steps(const double step)
+  {
+    const double limit = frame.state.fluid->stable_step();
+    if (has_warned || !(step > limit))
+      return;
+    has_warned = true;
+    std::ostringstream text;
+    text << "warning: at " << frame.state.time << " s: " << long_step(step, limit);
+    frame.state.progress.say(text.str());
   }
 
   void
   MovingFlow::tell_what_rules(const std::string &rule, const double step)
   {
-    if (rule == ruled_by)
+    if (steps_by[rule]++ > 0)
       return;
-    ruled_by = rule;
     std::ostringstream text;
-    text << "at " << frame.state.time << " s: ";
-    if (rule.empty())
-      text << "steps of Flow/time step again";
-    else
-      text << "steps are shortened to " << step << " s by " << rule;
+    text << "at " << frame.state.time << " s: steps of " << step << " s by " << rule;
+    frame.state.progress.say(text.str());
+  }
+
+  void
+  MovingFlow::tell_steps() const
+  {
+    std::ostringstream text;
+    text << "steps of the fluid";
+    for (const auto &[rule, n] : steps_by)
+      text << (&rule == &steps_by.begin()->first ? ": " : ", ") << n << " by " << rule;
     frame.state.progress.say(text.str());
   }
 
@@ -117,13 +153,17 @@ namespace graupel
   std::string
   MovingFlow::save() const
   {
-    return to_bytes(std::make_pair(step_limit, ruled_by));
+    return to_bytes(std::make_pair(std::make_pair(step_limit, has_warned), steps_by));
   }
 
   void
   MovingFlow::resume(const std::string &saved)
   {
-    std::tie(step_limit, ruled_by) = from_bytes<std::pair<double, std::string>>(saved);
+    std::pair<double, bool> of_steps;
+    std::tie(of_steps, steps_by) =
+      from_bytes<std::pair<std::pair<double, bool>, std::map<std::string, unsigned int>>>(
+        saved);
+    std::tie(step_limit, has_warned) = of_steps;
   }
 
   ParticlesAlone::ParticlesAlone(FlowFrame &frame)
@@ -137,7 +177,7 @@ namespace graupel
     const SweepParameters &sweep = frame.state.parameters.sweep;
     if (is_over(frame.time(), sweep.duration))
       return false;
-    const double step = even_step(sweep.duration - frame.time(), sweep.time_step);
+    const double step = even_step(sweep.duration - frame.time(), sweep.longest_step());
     feed_particles(frame, step);
     frame.move_particles(step);
     frame.state.progress.update(frame.time());

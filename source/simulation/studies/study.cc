@@ -300,7 +300,7 @@ namespace graupel
     failed_level(const RunParameters &parameters)
     {
       LevelResult result;
-      result.time_step     = parameters.sweep.time_step;
+      result.time_step     = parameters.sweep.longest_step();
       result.filter_length = parameters.filter_length();
       result.scale         = parameters.dem.particles.scale;
       result.has_failed    = true;

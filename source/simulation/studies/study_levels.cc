@@ -40,7 +40,7 @@ namespace graupel
           parameters.mesh.cell_size = value;
         }
       else if (parameters.study.vary == "time step")
-        parameters.sweep.time_step = value;
+        parameters.sweep.time_step = text_of(value);
       else if (parameters.study.vary == "scale")
         set_scale(parameters, value);
       else if (parameters.study.vary == "filter length")

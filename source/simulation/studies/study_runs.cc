@@ -20,7 +20,7 @@ namespace graupel
     LevelResult result;
     result.cells         = summary.cells;
     result.cell_size     = representative_size(summary.volume, summary.cells);
-    result.time_step     = parameters.sweep.time_step;
+    result.time_step     = parameters.sweep.longest_step();
     result.filter_length = parameters.filter_length();
     result.scale         = parameters.dem.particles.scale;
     result.measurements.push_back(
@@ -59,7 +59,7 @@ namespace graupel
                     parameters.fluid.viscosity,
                     nodes,
                     costs);
-    const FlowErrors errors = solution.run(flow, nodes, parameters.sweep.time_step);
+    const FlowErrors errors = solution.run(flow, nodes, parameters.sweep.longest_step());
 
     Medium medium(nodes);
     solution.set(medium, flow, nodes, parameters.manufactured.duration);
@@ -70,7 +70,7 @@ namespace graupel
     result.cell_size = representative_size(
       mesh.mean_cross_section() * parameters.cylinder.height, result.cells);
     result.time_step =
-      parameters.manufactured.duration > 0. ? parameters.sweep.time_step : 0.;
+      parameters.manufactured.duration > 0. ? parameters.sweep.longest_step() : 0.;
     result.measurements = {{"error of the flux [-]", errors.flux, true},
                            {"error of the pressure [-]", errors.pressure, true}};
     std::ostringstream text;

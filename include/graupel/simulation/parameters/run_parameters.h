@@ -47,6 +47,10 @@ namespace graupel
     /** Filter length in use [m]. */
     double filter_length() const;
 
+    /** The drag on each type, in a mixture of this original @p sauter mean diameter [m].
+     */
+    std::vector<DragOfType> drags(const double sauter) const;
+
     /**
      * What --check tells: the dimensionless groups, the sizes and the step
      * sizes that follow from the parameters.

@@ -19,12 +19,13 @@ namespace graupel
     std::string mode = "transient";
     /** Linear systems after which a steady flow has not been found [-]. */
     unsigned int maximum_solves = 100;
-    /** Step of the fluid, and of the exchange with the particles, at most [s]. */
-    double time_step = 5e-3;
+    /** Step of the fluid, and of the exchange with the particles: a length [s], or
+     * "auto", which keeps to the particles' response and to the Courant number. */
+    std::string time_step = "auto";
     /** Time in which the superficial velocity goes from one case's to the next [s]. */
     double ramp_time = 0.1;
-    /** Courant number that no step exceeds; 0: none [-]. */
-    double courant_number = 0.;
+    /** Courant number that no step of "auto" exceeds; 0: none [-]. */
+    double courant_number = 2.;
     /** "flow-throughs" or "steady": when a case ends. */
     std::string stop_when = "flow-throughs";
     /** Times that the superficial velocity crosses the vessel's height [-]. */
@@ -37,6 +38,13 @@ namespace graupel
     double steady_window = 0.1;
     /** Longest duration of a case that ends when steady [s]. */
     double maximum_time = 10.;
+
+    /** The step that is kept to [s]; nothing with "auto". */
+    std::optional<double> fixed_step() const;
+
+    /** The step at most [s]: the fixed one, or what leaves twenty of them in the steady
+     * window, so that what is watched in it has a course. */
+    double longest_step() const;
 
     /** The velocity of each case [m/s]; one without any where the particles are alone. */
     std::vector<std::optional<double>> cases() const;

@@ -3,6 +3,8 @@
 
 #include <graupel/simulation/strategies/flow_strategy.h>
 
+#include <map>
+
 namespace graupel
 {
   /** Fluid and particles move through time together. */
@@ -16,14 +18,26 @@ namespace graupel
     void        resume(const std::string &saved) override;
 
   private:
-    double next_step(const double remaining);
-    double step_fluid(double step);
-    void   tell_what_rules(const std::string &rule, const double step);
+    struct Limit
+    {
+      double      step; // [s]
+      std::string name;
+    };
+
+    // What steps of "auto" keep to.
+    std::vector<Limit> limits() const;
+    double             next_step(const double remaining);
+    double             step_fluid(double step);
+    void               warn_of_long_steps(const double step);
+    void               tell_what_rules(const std::string &rule, const double step);
+    void               tell_steps() const;
 
     FlowFrame   &frame;
-    const double duration;   // at most [s]
-    double       step_limit; // after a step that failed [s]
-    std::string  ruled_by;   // what the length of a step follows
+    const double duration;           // at most [s]
+    double       step_limit;         // after a step that failed [s]
+    bool         has_warned = false; // of a step beyond the particles' response
+    // How many steps followed what.
+    std::map<std::string, unsigned int> steps_by;
   };
 
   /** Particles move without a fluid. */

@@ -1,0 +1,35 @@
+#ifndef graupel_simulation_parameters_step_limits_h
+#define graupel_simulation_parameters_step_limits_h
+
+#include <graupel/simulation/parameters/run_parameters.h>
+
+namespace graupel
+{
+  /** Steps of the fluid [s] that resolve what moves in a bed. */
+  struct StepLimits
+  {
+    /** The response of the particles to the drag (stable_step()). */
+    double response = 0.;
+    /** The fluid's way over a cell, by the Courant number in force. */
+    double courant = 0.;
+  };
+
+  /**
+   * Those in a bed at rest of this @p void_fraction [-] through which fluid flows with
+   * the superficial @p velocity [m/s]: of the particles that respond soonest, and over a
+   * cell's height with the interstitial velocity; infinite at no velocity.
+   */
+  StepLimits limits_at_rest(const RunParameters &parameters,
+                            const double         void_fraction,
+                            const double         velocity);
+
+  /** What is wrong with a @p step beyond the response @p limit, both in [s], and the
+   * remedy: the end of a sentence. */
+  std::string long_step(const double step, const double limit);
+
+  /** What a run is warned of beforehand: a step, a filter or a scale that is valid but
+   * does not resolve what it should. A sentence each, with number and remedy. */
+  std::vector<std::string> warnings(const RunParameters &parameters);
+} // namespace graupel
+
+#endif

@@ -1,0 +1,129 @@
+#include <graupel/simulation/parameters/step_limits.h>
+
+#include <limits>
+#include <sstream>
+
+namespace graupel
+{
+  namespace
+  {
+    // Void fraction of a bed that is not there yet [-].
+    constexpr double guessed_void_fraction = 0.4;
+    // A filter's standard deviation below which a particle pushes on its own
+    // disturbance, in diameters, and one beyond which it blurs the vessel, in diameters
+    // of that [-].
+    constexpr double least_filter = 0.99, largest_filter = 0.25;
+    // Simulated particles across a vessel, below which walls are all that there is [-].
+    constexpr double fewest_across = 5.;
+
+    double
+    response_at_rest(const RunParameters &parameters,
+                     const double         void_fraction,
+                     const double         velocity)
+    {
+      const auto types  = parameters.dem.types();
+      const auto drags  = parameters.drags(parameters.dem.mean_original_diameter());
+      double     result = std::numeric_limits<double>::infinity();
+      for (std::size_t n = 0; n < types.size(); ++n)
+        result = std::min(result,
+                          stable_step_at_rest(drags[n],
+                                              types[n].smallest_radius(),
+                                              types[n].density,
+                                              void_fraction,
+                                              velocity));
+      return result;
+    }
+
+    void
+    warn_of_step(const RunParameters &parameters, std::vector<std::string> &said)
+    {
+      const SweepParameters &sweep = parameters.sweep;
+      if (!sweep.fixed_step() || !sweep.has_fluid() || sweep.mode == "steady")
+        return;
+      double limit = std::numeric_limits<double>::infinity();
+      for (const double velocity : sweep.superficial_velocities)
+        limit =
+          std::min(limit, response_at_rest(parameters, guessed_void_fraction, velocity));
+      if (*sweep.fixed_step() > limit)
+        said.push_back("in a bed at rest " + long_step(*sweep.fixed_step(), limit));
+    }
+
+    void
+    warn_of_filter(const RunParameters &parameters, std::vector<std::string> &said)
+    {
+      const double       deviation = std::sqrt(2.) * parameters.filter_length();
+      const double       diameter  = parameters.simulated_diameter();
+      const double       vessel    = parameters.cylinder.diameter;
+      std::ostringstream text;
+      text << "Coupling/filter length = " << parameters.filter_length()
+           << " m has a standard deviation of " << deviation << " m, ";
+      if (deviation < least_filter * diameter)
+        text << "less than a simulated particle (" << diameter
+             << " m): it feels its own disturbance of the flow. Try auto";
+      else if (deviation > largest_filter * vessel)
+        text << "more than a quarter of the vessel (" << vessel
+             << " m): the bed is smeared over all of it. Try auto, or a smaller "
+                "Particles/scale";
+      else
+        return;
+      said.push_back(text.str());
+    }
+
+    void
+    warn_of_scale(const RunParameters &parameters, std::vector<std::string> &said)
+    {
+      const double across =
+        parameters.cylinder.diameter / parameters.simulated_diameter();
+      if (across >= fewest_across)
+        return;
+      std::ostringstream text;
+      text << "only " << across << " simulated particles of "
+           << parameters.simulated_diameter()
+           << " m fit across the vessel: it is walls that the flow feels. Try a smaller "
+              "Particles/scale than "
+           << parameters.dem.particles.scale;
+      said.push_back(text.str());
+    }
+  } // namespace
+
+  StepLimits
+  limits_at_rest(const RunParameters &parameters,
+                 const double         void_fraction,
+                 const double         velocity)
+  {
+    StepLimits             result;
+    const MeshParameters  &mesh  = parameters.mesh;
+    const SweepParameters &sweep = parameters.sweep;
+    const double height = mesh.cell_height > 0. ? mesh.cell_height : mesh.cell_size;
+    const double number = sweep.courant_number > 0.
+                            ? sweep.courant_number
+                            : std::numeric_limits<double>::infinity();
+    result.response     = response_at_rest(parameters, void_fraction, velocity);
+    result.courant      = velocity > 0. ? number * height * void_fraction / velocity
+                                        : std::numeric_limits<double>::infinity();
+    return result;
+  }
+
+  std::string
+  long_step(const double step, const double limit)
+  {
+    std::ostringstream text;
+    text << "Flow/time step = " << step
+         << " s is longer than the particles take to respond "
+         << "to the drag, " << limit
+         << " s: how they do is not resolved in time. Try auto, or a step below this";
+    return text.str();
+  }
+
+  std::vector<std::string>
+  warnings(const RunParameters &parameters)
+  {
+    std::vector<std::string> said;
+    if (!parameters.sweep.has_fluid())
+      return said;
+    warn_of_step(parameters, said);
+    warn_of_filter(parameters, said);
+    warn_of_scale(parameters, said);
+    return said;
+  }
+} // namespace graupel
