@@ -6,9 +6,8 @@ namespace graupel
 {
   namespace
   {
-    // Mobility of a held particle about to come loose, and of a light one that is held
-    // beyond doubt, over that of a free one [-].
-    constexpr double loose_part = 0.5, light_part = 0.2;
+    // Mobility of a light particle that is held beyond doubt over that of a free one [-].
+    constexpr double light_part = 0.2;
     // Where the force from outside is below this part of the weight, a particle is about
     // to lift or to come to rest, and contacts say little about what it will do [-].
     constexpr double clear_force = 0.3;
@@ -51,8 +50,7 @@ namespace graupel
         const double giving =
           light * carried * (light_part + (1. - light_part) * loose) * step / mass;
         response.mobility[row] = unbound + giving;
-        response.yielding[row] =
-          (1. - light) * carried * loose_part * loose * step / mass;
+        response.yielding[row] = (1. - light) * carried * loose * step / mass;
         response.velocity[row] += unbound * weight + giving * (buoyancy - before);
       }
     return response;

@@ -36,10 +36,10 @@ namespace graupel
    * has lambda = 1 and stays, so that a bed at rest has the same flow with any step. It
    * may come loose where A is small, though. It then yields to a change of the force,
    *
-   *   yielding = (1 - l) lambda step / (2 m) max(0, 1 - (A / (0.3 m g'))^2),
+   *   yielding = (1 - l) lambda step / m max(0, 1 - (A / (0.3 m g'))^2),
    *
-   * with the weight in the fluid m g'. Half of a free mobility is enough: a bed that
-   * comes loose unforeseen is stable with a quarter of it over 1 - alpha. Particles
+   * with the weight in the fluid m g'. A free mobility is enough: a bed that comes
+   * loose unforeseen is stable with a quarter of it over 1 - alpha. Particles
    * lighter than the fluid bounce, and the fluid's inertia with them: l = min(1, rho V /
    * m - 1) of one, if that is positive, also moves by
    *
