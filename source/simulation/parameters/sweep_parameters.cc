@@ -105,7 +105,8 @@ namespace graupel
       "Courant number",
       courant_number,
       "Largest speed of the fluid times step over cell size that steps of "
-      "auto keep to; 0: whatever it is [-].");
+      "auto keep to: up to 2, mean, rms and height of a bubbling bed are "
+      "those of 0.5 within their statistical error; 0: whatever it is [-].");
     prm.add_parameter(
       "stop when",
       stop_when,
