@@ -1,6 +1,8 @@
+#include <graupel/mesh/cell_order.h>
 #include <graupel/mesh/nodal_space.h>
 
 #include <deal.II/base/quadrature_lib.h>
+#include <deal.II/dofs/dof_renumbering.h>
 #include <deal.II/dofs/dof_tools.h>
 #include <deal.II/fe/fe_values.h>
 
@@ -13,6 +15,8 @@ namespace graupel
     , dof_handler(mesh.triangulation())
   {
     dof_handler.distribute_dofs(fe);
+    // As the order of the cells, so that it does not depend on the mesh's past.
+    dealii::DoFRenumbering::hierarchical(dof_handler);
     owned = dof_handler.locally_owned_dofs();
     dealii::DoFTools::extract_locally_relevant_dofs(dof_handler, relevant);
     hanging_nodes.reinit(relevant);
@@ -31,17 +35,16 @@ namespace graupel
       mesh.mapping(), fe, quadrature, dealii::update_values | dealii::update_JxW_values);
     dealii::Vector<double>                       cell_volumes(fe.n_dofs_per_cell());
     std::vector<dealii::types::global_dof_index> nodes(fe.n_dofs_per_cell());
-    for (const auto &cell : dof_handler.active_cell_iterators())
-      if (cell->is_locally_owned())
-        {
-          values.reinit(cell);
-          cell_volumes = 0.;
-          for (const unsigned int q : values.quadrature_point_indices())
-            for (const unsigned int a : values.dof_indices())
-              cell_volumes[a] += values.shape_value(a, q) * values.JxW(q);
-          cell->get_dof_indices(nodes);
-          hanging_nodes.distribute_local_to_global(cell_volumes, nodes, volumes);
-        }
+    for (const auto &cell : owned_cells(dof_handler))
+      {
+        values.reinit(cell);
+        cell_volumes = 0.;
+        for (const unsigned int q : values.quadrature_point_indices())
+          for (const unsigned int a : values.dof_indices())
+            cell_volumes[a] += values.shape_value(a, q) * values.JxW(q);
+        cell->get_dof_indices(nodes);
+        hanging_nodes.distribute_local_to_global(cell_volumes, nodes, volumes);
+      }
     volumes.compress(dealii::VectorOperation::add);
     volumes.update_ghost_values();
   }

@@ -69,6 +69,7 @@ namespace graupel
       {
         saved.fluid       = state.fluid->fluid().history();
         saved.stable_step = state.fluid->stable_step();
+        saved.partition   = state.mesh.partition();
       }
     saved.phase_number = phase_number;
     if (phase_now != nullptr)
@@ -110,8 +111,10 @@ namespace graupel
   void
   Simulation::go_on_from(const RunState &saved)
   {
+    VesselMesh::CellBytes bytes;
     if (saved.has_fluid)
-      state.mesh.load(checkpoint_fields(files.path("checkpoint")));
+      bytes =
+        state.mesh.load(checkpoint_fields(files.path("checkpoint")), saved.partition);
     state.dem.restore(checkpoint->second);
 
     state.time           = saved.time;
@@ -138,7 +141,7 @@ namespace graupel
     if (saved.has_fluid)
       {
         state.make_fluid();
-        state.fluid->load(saved.fluid, saved.stable_step);
+        state.fluid->load(saved.fluid, bytes, saved.stable_step);
       }
     std::ostringstream text;
     text << "resumed at " << state.time << " s, " << state.dem.n_global()

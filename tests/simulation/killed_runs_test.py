@@ -8,7 +8,7 @@ import signal
 import subprocess
 import time
 
-from runs import ROOT, Program, RunTest, main, overrides
+from runs import ROOT, RunTest, command, environment, main, overrides
 
 CASES = ROOT / "tests" / "cases"
 # A checkpoint after each step.
@@ -22,18 +22,21 @@ class KilledRuns(RunTest):
         super().setUp()
         shutil.copytree(CASES, self.path, dirs_exist_ok=True)
 
-    def kill_in(self, phase, file, values):
+    def kill_in(self, phase, file, values, ranks):
         """Kills a run when monitors.csv has some rows of the phase and a checkpoint lies
         behind them."""
         output = self.path / "killed"
-        arguments = [Program.path, file, "--output", "killed", *overrides({**values, **ALWAYS})]
-        environment = dict(os.environ, OMP_NUM_THREADS="1")
-        run = subprocess.Popen(
-            arguments, cwd=self.path, env=environment, stdout=subprocess.DEVNULL
+        words = command(
+            file, "--output", "killed", *overrides({**values, **ALWAYS}), ranks=ranks
         )
+        # In a group of its own, so that all ranks are killed, with what started them.
+        run = subprocess.Popen(
+            words, cwd=self.path, env=environment(),
+            stdout=subprocess.DEVNULL, start_new_session=True,
+        )  # fmt: skip
         monitors = output / "monitors.csv"
-        # 100 spheres are in after 20 ms.
-        rows_before = 1 if phase == "fill" else 3
+        # 100 spheres are in after 20 ms; a flow is well on its way.
+        rows_before = {"fill": 1, "settle": 3, "flow": 12}[phase]
         for _ in range(6000):
             rows = monitors.read_text().splitlines() if monitors.exists() else []
             in_phase = [row for row in rows if f",{phase}," in row]
@@ -41,18 +44,20 @@ class KilledRuns(RunTest):
                 break
             self.assertIsNone(run.poll(), f"it ended before that many rows of {phase}")
             time.sleep(0.001)
-        run.send_signal(signal.SIGKILL)
+        os.killpg(run.pid, signal.SIGKILL)
         run.wait()
         return output
 
-    def expect_the_same(self, file, values, phases):
-        whole = self.run_file(file, values, output="whole")
+    def expect_the_same(self, file, values, phases, ranks=1):
+        whole = self.run_file(file, values, output="whole", ranks=ranks)
         self.assertEqual(whole.status, 0, whole)
         for phase in phases:
             shutil.rmtree(self.path / "killed", ignore_errors=True)
-            output = self.kill_in(phase, file, values)
+            output = self.kill_in(phase, file, values, ranks)
             self.assertFalse((output / "summary.json").exists())
-            resumed = self.run_file(file, values, "--resume", output="killed")
+            resumed = self.run_file(
+                file, values, "--resume", output="killed", ranks=ranks
+            )
             self.assertEqual(resumed.status, 0, resumed)
             self.assertIn("resumed at", resumed.said)
             for name in ("monitors.csv", "wall-forces.csv"):
@@ -66,6 +71,9 @@ class KilledRuns(RunTest):
 
     def test_a_bed_that_moves(self):
         self.expect_the_same("restart.prm", {}, ("fill", "settle", "flow"))
+
+    def test_a_bed_that_moves_on_two_ranks(self):
+        self.expect_the_same("restart.prm", {}, ("settle", "flow"), ranks=2)
 
     def test_a_rain_at_a_rate(self):
         self.expect_the_same("rate.prm", {}, ("fill", "settle"))

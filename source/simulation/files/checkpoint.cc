@@ -73,7 +73,7 @@ namespace graupel
       archive &state.phase_number &state.phase &state.has_fluid;
       raw(archive, state.velocity);
       raw(archive, state.fluid);
-      archive &state.stable_step;
+      archive &state.stable_step &state.partition;
     }
 
     // The version goes first; false if the file is another's.

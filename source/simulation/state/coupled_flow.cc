@@ -15,11 +15,13 @@ namespace graupel
   } // namespace
 
   CoupledFlow::CoupledFlow(const RunParameters &parameters,
+                           const double         original_diameter,
                            const double         solid_ratio,
                            VesselMesh          &mesh,
                            Dem                 &dem,
                            CostSheet           &costs)
     : parameters(parameters)
+    , original_diameter(original_diameter)
     , solid_ratio(solid_ratio)
     , mesh(mesh)
     , dem(dem)
@@ -51,10 +53,9 @@ namespace graupel
                    costs);
     std::vector<DragOfType> drags;
     const bool              is_mixture = parameters.coupling.mixture == "sauter mean";
-    const double            sauter     = dem.original_sauter_diameter();
     for (const auto &type : parameters.dem.types())
       {
-        const double diameter = is_mixture ? sauter : type.diameter;
+        const double diameter = is_mixture ? original_diameter : type.diameter;
         drags.push_back({Drag(parameters.drag, parameters.fluid, diameter, type.scale),
                          0.5 * type.scale * diameter,
                          is_mixture});
@@ -140,13 +141,15 @@ namespace graupel
   void
   CoupledFlow::save(const std::string &file) const
   {
-    solver->save(file);
+    mesh.save(file, solver->cell_bytes());
   }
 
   void
-  CoupledFlow::load(const FlowHistory &history, const double stable_step)
+  CoupledFlow::load(const FlowHistory           &history,
+                    const VesselMesh::CellBytes &bytes,
+                    const double                 stable_step)
   {
-    solver->restore(history);
+    solver->restore(history, bytes);
     superficial_velocity = history.last_velocity;
     look_at_bed();
     // The slip of the next drag is that of the last step, through the bed as it was then.
