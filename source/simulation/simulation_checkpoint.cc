@@ -67,8 +67,9 @@ namespace graupel
     saved.has_fluid           = state.fluid.has_value();
     if (state.fluid)
       {
-        saved.fluid       = state.fluid->fluid().history();
-        saved.stable_step = state.fluid->stable_step();
+        saved.fluid         = state.fluid->fluid().history();
+        saved.stable_step   = state.fluid->stable_step();
+        saved.averaged_time = state.averages.averaged_time();
       }
     saved.phase_number = phase_number;
     if (phase_now != nullptr)
@@ -87,8 +88,10 @@ namespace graupel
       run_state(),
       state.dem.state(),
       [&](const std::string &file) {
-        if (state.fluid)
-          state.fluid->save(file);
+        if (!state.fluid)
+          return;
+        const auto attached = state.averages.attach(state.fluid->nodes());
+        state.fluid->save(file);
       },
       state.communicator);
     next_save =
@@ -138,6 +141,7 @@ namespace graupel
     if (saved.has_fluid)
       {
         state.make_fluid();
+        state.averages.load(state.fluid->nodes(), saved.averaged_time);
         state.fluid->load(saved.fluid, saved.stable_step);
       }
     std::ostringstream text;

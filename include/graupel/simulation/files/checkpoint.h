@@ -35,7 +35,8 @@ namespace graupel
 
     bool        has_fluid = false;
     FlowHistory fluid;
-    double      stable_step = 0.; // CoupledFlow::stable_step() [s]
+    double      stable_step   = 0.; // CoupledFlow::stable_step() [s]
+    double      averaged_time = 0.; // FieldAverages::averaged_time() [s]
   };
 
   /**
