@@ -1,5 +1,4 @@
 #include <graupel/fluid/flow_solver.h>
-#include <graupel/mesh/cell_order.h>
 
 #include <cstring>
 
@@ -59,47 +58,18 @@ namespace graupel
   FlowSolver::cell_bytes() const
   {
     const auto            made_of = recipe ? recipe : share(assembled);
-    const auto            fields  = fields_of_history(*this, *made_of);
     VesselMesh::CellBytes result;
-    std::vector<double>   values;
-    for (const auto &cell : owned_cells(nodes.dof_handler))
-      {
-        values.clear();
-        for (const auto *field : fields)
-          for (const unsigned int v : cell->vertex_indices())
-            values.push_back((*field)(cell->vertex_dof_index(v, 0)));
-        const auto *const begin = reinterpret_cast<const char *>(values.data());
-        std::vector<char> bytes(begin, begin + values.size() * sizeof(double));
-        const auto        unresolved = pack_unresolved(result.size());
-        bytes.insert(bytes.end(), unresolved.begin(), unresolved.end());
-        result.push_back(std::move(bytes));
-      }
+    nodes.append(result, fields_of_history(*this, *made_of));
+    append_unresolved(result);
     return result;
   }
 
   void
-  FlowSolver::restore(const FlowHistory &history, const VesselMesh::CellBytes &bytes)
+  FlowSolver::restore(const FlowHistory &history, VesselMesh::CellBytes bytes)
   {
-    Recipe     made_of = assembled;
-    const auto fields  = fields_of_history(*this, made_of);
-    for (NodalVector *field : fields)
-      nodes.initialize(*field);
-    unsigned int number = 0;
-    for (const auto &cell : owned_cells(nodes.dof_handler))
-      {
-        const char *place = bytes[number].data();
-        for (NodalVector *field : fields)
-          for (const unsigned int v : cell->vertex_indices())
-            {
-              const auto dof = cell->vertex_dof_index(v, 0);
-              if (nodes.owned.is_element(dof))
-                std::memcpy(&(*field)(dof), place, sizeof(double));
-              place += sizeof(double);
-            }
-        unpack_unresolved(number++, place);
-      }
-    for (NodalVector *field : fields)
-      field->update_ghost_values();
+    Recipe made_of = assembled;
+    take_unresolved(bytes);
+    nodes.take(bytes, fields_of_history(*this, made_of));
 
     now              = history.time;
     last_step        = history.last_step;
@@ -125,24 +95,31 @@ namespace graupel
     restore_solution();
   }
 
-  std::vector<char>
-  FlowSolver::pack_unresolved(const unsigned int cell) const
+  void
+  FlowSolver::append_unresolved(VesselMesh::CellBytes &bytes) const
   {
-    const std::size_t  size  = space.points_per_cell * sizeof(dealii::Tensor<1, 3>);
-    const unsigned int first = cell * space.points_per_cell;
-    std::vector<char>  bytes(2 * size);
-    std::memcpy(bytes.data(), &unresolved_now[first], size);
-    std::memcpy(bytes.data() + size, &unresolved_old[first], size);
-    return bytes;
+    const std::size_t size = space.points_per_cell * sizeof(dealii::Tensor<1, 3>);
+    for (std::size_t cell = 0; cell < bytes.size(); ++cell)
+      for (const auto *values : {&unresolved_now, &unresolved_old})
+        {
+          const auto *begin =
+            reinterpret_cast<const char *>(&(*values)[cell * space.points_per_cell]);
+          bytes[cell].insert(bytes[cell].end(), begin, begin + size);
+        }
   }
 
   void
-  FlowSolver::unpack_unresolved(const unsigned int cell, const char *const bytes)
+  FlowSolver::take_unresolved(VesselMesh::CellBytes &bytes)
   {
-    const std::size_t  size  = space.points_per_cell * sizeof(dealii::Tensor<1, 3>);
-    const unsigned int first = cell * space.points_per_cell;
-    std::memcpy(&unresolved_now[first], bytes, size);
-    std::memcpy(&unresolved_old[first], bytes + size, size);
+    const std::size_t size = space.points_per_cell * sizeof(dealii::Tensor<1, 3>);
+    for (std::size_t cell = 0; cell < bytes.size(); ++cell)
+      for (auto *values : {&unresolved_old, &unresolved_now})
+        {
+          const std::size_t rest = bytes[cell].size() - size;
+          std::memcpy(
+            &(*values)[cell * space.points_per_cell], bytes[cell].data() + rest, size);
+          bytes[cell].resize(rest);
+        }
   }
 
   void

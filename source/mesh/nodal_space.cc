@@ -6,6 +6,8 @@
 #include <deal.II/dofs/dof_tools.h>
 #include <deal.II/fe/fe_values.h>
 
+#include <cstring>
+
 namespace graupel
 {
   NodalSpace::NodalSpace(const VesselMesh &mesh)
@@ -47,6 +49,48 @@ namespace graupel
       }
     volumes.compress(dealii::VectorOperation::add);
     volumes.update_ghost_values();
+  }
+
+  void
+  NodalSpace::append(VesselMesh::CellBytes                  &bytes,
+                     const std::vector<const NodalVector *> &fields) const
+  {
+    const auto cells = owned_cells(dof_handler);
+    bytes.resize(cells.size());
+    for (std::size_t c = 0; c < cells.size(); ++c)
+      for (const auto *field : fields)
+        for (const unsigned int v : cells[c]->vertex_indices())
+          {
+            const double value = (*field)(cells[c]->vertex_dof_index(v, 0));
+            const auto  *begin = reinterpret_cast<const char *>(&value);
+            bytes[c].insert(bytes[c].end(), begin, begin + sizeof(double));
+          }
+  }
+
+  void
+  NodalSpace::take(VesselMesh::CellBytes            &bytes,
+                   const std::vector<NodalVector *> &fields) const
+  {
+    for (NodalVector *field : fields)
+      initialize(*field);
+    const auto cells = owned_cells(dof_handler);
+    for (std::size_t c = 0; c < cells.size(); ++c)
+      {
+        const std::size_t of_cell = fields.size() * fe.n_dofs_per_cell() * sizeof(double);
+        AssertThrow(bytes[c].size() >= of_cell, dealii::ExcInternalError());
+        const char *place = bytes[c].data() + bytes[c].size() - of_cell;
+        for (NodalVector *field : fields)
+          for (const unsigned int v : cells[c]->vertex_indices())
+            {
+              const auto dof = cells[c]->vertex_dof_index(v, 0);
+              if (owned.is_element(dof))
+                std::memcpy(&(*field)(dof), place, sizeof(double));
+              place += sizeof(double);
+            }
+        bytes[c].resize(bytes[c].size() - of_cell);
+      }
+    for (NodalVector *field : fields)
+      field->update_ghost_values();
   }
 
   void

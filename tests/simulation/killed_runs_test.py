@@ -13,6 +13,20 @@ from runs import ROOT, RunTest, command, environment, main, overrides
 CASES = ROOT / "tests" / "cases"
 # A checkpoint after each step.
 ALWAYS = {"Output/checkpoint interval": 1e-6}
+# A window that the run is killed in, and what is averaged over it.
+AVERAGES = {
+    "Flow/time step": 2e-3,
+    "Averages/from": 0.007,
+    "Averages/to": 0.15,
+    "Averages/interval": 0.008,
+    "Averages/lines": "axis: 0 0 0 0 0 0.02 5 0.004 0.004",
+    "Averages/planes": "mid: -0.006 0 0 0.006 0 0 -0.006 0 0.02 3 5 0.002",
+    "Output/probes": "middle: 0 0 0.01",
+}
+MEANS = [
+    f"{name}-01.csv"
+    for name in ("averages", "spectra", "averages-lines", "averages-planes", "averages-midplane")
+] + ["snapshots.csv", "probes.csv"]
 
 
 class KilledRuns(RunTest):
@@ -48,7 +62,7 @@ class KilledRuns(RunTest):
         run.wait()
         return output
 
-    def expect_the_same(self, file, values, phases, ranks=1):
+    def expect_the_same(self, file, values, phases, further=(), ranks=1):
         whole = self.run_file(file, values, output="whole", ranks=ranks)
         self.assertEqual(whole.status, 0, whole)
         for phase in phases:
@@ -60,7 +74,7 @@ class KilledRuns(RunTest):
             )
             self.assertEqual(resumed.status, 0, resumed)
             self.assertIn("resumed at", resumed.said)
-            for name in ("monitors.csv", "wall-forces.csv"):
+            for name in ("monitors.csv", "wall-forces.csv", *further):
                 one, other = (
                     (folder / name).read_text().splitlines()
                     for folder in (whole.directory, output)
@@ -70,7 +84,10 @@ class KilledRuns(RunTest):
                     self.assertEqual(there, here, f"{name}, killed in {phase}")
 
     def test_a_bed_that_moves(self):
-        self.expect_the_same("restart.prm", {}, ("fill", "settle", "flow"))
+        self.expect_the_same("restart.prm", {}, ("fill", "settle"))
+
+    def test_averages_of_a_bed_that_moves(self):
+        self.expect_the_same("restart.prm", AVERAGES, ("flow",), MEANS)
 
     def test_a_bed_that_moves_on_two_ranks(self):
         self.expect_the_same("restart.prm", {}, ("settle", "flow"), ranks=2)

@@ -176,7 +176,7 @@ namespace graupel
      * the next steps are the same bit by bit as if nothing had been in between.
      * Collective.
      */
-    void restore(const FlowHistory &history, const VesselMesh::CellBytes &bytes);
+    void restore(const FlowHistory &history, VesselMesh::CellBytes bytes);
 
     /** alpha of the last step, 1 before the first [-], ghosts up to date. */
     const NodalVector &
@@ -325,9 +325,9 @@ namespace graupel
     void                 publish();
     void                 keep_history(const Medium &medium, const double step);
     template <typename Solver, typename RecipeType>
-    static auto       fields_of_history(Solver &solver, RecipeType &recipe);
-    std::vector<char> pack_unresolved(const unsigned int cell) const;
-    void              unpack_unresolved(const unsigned int cell, const char *const bytes);
+    static auto fields_of_history(Solver &solver, RecipeType &recipe);
+    void        append_unresolved(VesselMesh::CellBytes &bytes) const;
+    void        take_unresolved(VesselMesh::CellBytes &bytes);
 
     const FlowParameters parameters;
     const double         density;

@@ -40,6 +40,15 @@ namespace graupel
     /** Makes @p vector a zero vector of the nodes, with room for ghosts. */
     void initialize(NodalVector &vector) const;
 
+    /** Puts the values of @p fields at the nodes of each own cell behind its @p bytes, in
+     * the order of owned_cells(). */
+    void append(VesselMesh::CellBytes                  &bytes,
+                const std::vector<const NodalVector *> &fields) const;
+
+    /** Makes @p fields of what append() put there, and takes it away. Collective. */
+    void take(VesselMesh::CellBytes            &bytes,
+              const std::vector<NodalVector *> &fields) const;
+
     /** Volume of each node, m_k = integral of psi_k [m^3], ghosts up to date. */
     const NodalVector &
     measure() const

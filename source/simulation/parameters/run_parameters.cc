@@ -30,6 +30,7 @@ namespace graupel
     original_bed.declare(prm);
     flow.declare(prm);
     sweep.declare(prm);
+    averages.declare(prm);
     output.declare(prm);
     study.declare(prm);
     manufactured.declare(prm);
@@ -52,6 +53,7 @@ namespace graupel
     drag.check(dem.particles.scale, dem.mean_original_diameter());
     flow.check();
     sweep.check();
+    check_averages();
     output.check();
     study.check();
     manufactured.check();
@@ -103,6 +105,32 @@ namespace graupel
              << " m high cannot be filled into the vessel of Geometry/height = "
              << cylinder.height << " m (" << error.what() << ")";
         throw InputError("Original bed/measured height", text.str());
+      }
+  }
+
+  void
+  RunParameters::check_averages() const
+  {
+    averages.check();
+    require(
+      !averages.are_wanted() || adaption.interval <= 0.,
+      "Averages/to",
+      "means over time are taken at the nodes of one mesh, and Mesh adaption/interval "
+      "changes it; set that to 0, or this, for no averages");
+    if (!averages.are_wanted() || sweep.stop_when == "steady")
+      return;
+    for (const auto &velocity : sweep.cases())
+      {
+        const double duration =
+          sweep.case_duration(velocity.value_or(0.), cylinder.height);
+        std::ostringstream reason;
+        reason << "a case ends after " << duration
+               << " s, before the window of its averages begins; choose an earlier one, "
+                  "or longer cases by Flow/duration";
+        require(sweep.mode == "steady" || sweep.mode == "automatic" ||
+                  duration > averages.from,
+                "Averages/from",
+                reason.str());
       }
   }
 

@@ -139,12 +139,6 @@ namespace graupel
   }
 
   void
-  CoupledFlow::save(const std::string &file) const
-  {
-    mesh.save(file, solver->cell_bytes());
-  }
-
-  void
   CoupledFlow::load(const FlowHistory           &history,
                     const VesselMesh::CellBytes &bytes,
                     const double                 stable_step)

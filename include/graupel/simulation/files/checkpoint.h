@@ -35,8 +35,9 @@ namespace graupel
 
     bool                      has_fluid = false;
     FlowHistory               fluid;
-    double                    stable_step = 0.; // CoupledFlow::stable_step() [s]
-    std::vector<unsigned int> partition;        // of the mesh
+    double                    stable_step   = 0.; // CoupledFlow::stable_step() [s]
+    double                    averaged_time = 0.; // FieldAverages::averaged_time() [s]
+    std::vector<unsigned int> partition;          // of the mesh
   };
 
   /**

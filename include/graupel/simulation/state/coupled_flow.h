@@ -63,12 +63,9 @@ namespace graupel
      */
     bool adapt(const double cell_share);
 
-    /** Writes mesh and fields to files whose names begin with @p file. Collective. */
-    void save(const std::string &file) const;
-
     /**
-     * Goes on from what VesselMesh::load() gives back of save(), and from the @p history
-     * of the fluid() and the @p stable_step [s] then, past the particles where they are:
+     * Goes on from the FlowSolver::cell_bytes() and the FlowSolver::history() of the
+     * fluid() and the @p stable_step [s] then, past the particles where they are:
      * as if nothing had been in between. Collective.
      */
     void load(const FlowHistory           &history,
