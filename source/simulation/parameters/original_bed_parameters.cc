@@ -14,7 +14,8 @@ namespace graupel
       "simulated "
       "bed. The others correct for scaled particles packing looser than the original "
       "ones, so that the bed drops the pressure of the original bed of the same mass: "
-      "correlation (ratio of Benyahia and O'Neill's values for both diameters), measured "
+      "correlation (the simulated bed's own wall layer, as much thinner as the original "
+      "particles are smaller; in a cylinder), measured "
       "(a short bed of original particles is settled first), or the mean void fraction "
       "of the original bed as a number [-].");
     prm.add_parameter("measured height",
