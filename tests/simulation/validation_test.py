@@ -14,6 +14,7 @@ import numpy as np
 
 from common.force_balance import Suspension, dallavalle, ergun, rong, wen_yu
 from common.reference import ergun_pressure_drop
+from common.run_output import RunOutput
 from common.statistics import mean_with_error
 from validation_parts import page
 from validation_parts.case import Comparison, load, names
@@ -89,6 +90,45 @@ class Page(unittest.TestCase):
             line,
             ["[gas](#gas)", "drop [Pa]", "100.0", "99.0 ± 0.5", "-1.0 %", "2.0 %", "yes", "12 s"],
         )
+
+
+class Evaluations(RunTest):
+    """What cases make of files whose content is known."""
+
+    def test_mueller_tells_by_how_much_a_line_is_off(self):
+        mueller = load("mueller")
+        # A void fraction that falls by 0.1 across the box, and what was measured.
+        at, value = mueller.points(0.6, 0.0164, "void_fraction")
+        expected = math.sqrt(np.mean((0.6 - at / 0.44 - value) ** 2))
+        with open(self.path / "averages-lines-01.csv", "w", encoding="utf-8") as file:
+            file.write("name,x,solid_fraction,velocity_z\nelsewhere,0.0,0.9,\n")
+            for x in np.linspace(0.0, 0.044, 12):
+                file.write(f"void-16,{x - 0.022},{0.4 + x / 0.44},\n")
+        run = RunOutput(self.path)
+        off = mueller.difference(run, 0.6, "void-16", 0.0164, "void_fraction")
+        self.assertAlmostEqual(off, expected, places=9)
+
+    def test_van_wachem_finds_the_frequency_of_a_sine(self):
+        time = np.linspace(0.0, 8.0, 4096)
+        wave = 3.0 + np.sin(2.0 * np.pi * 2.4 * time)
+        # Windows of 4 s tell 0.25 Hz apart.
+        found = load("van-wachem").dominant(time, wave)
+        self.assertAlmostEqual(found, 2.4, delta=0.125)
+
+    def test_richardson_and_zaki_by_the_height_of_the_solids(self):
+        case = load("richardson-zaki")
+        diameter, void, count = 0.04, 0.6, 500
+        area = math.pi / 4.0 * diameter**2
+        run = RunOutput(self.path, summary={"bed": {"solid_volume": 0.4 * area * 0.1}})
+        run.monitors = {
+            "case": np.ones(count),
+            "phase": np.full(count, "flow"),
+            "time": np.linspace(0.0, 5.0, count),
+            "center_of_mass": np.full(count, 0.05),
+        }
+        found, error = case.void_fraction(run, {"number": 1}, diameter)
+        self.assertAlmostEqual(found, void, places=9)
+        self.assertAlmostEqual(error, 0.0, places=12)
 
 
 class Laws(unittest.TestCase):

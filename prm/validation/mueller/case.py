@@ -52,7 +52,7 @@ def runs(quick):
 def bins(run, line):
     """Distance from the side wall [m], void fraction by particle volumes, and velocity [m/s]."""
     with open(run.directory / "averages-lines-01.csv", newline="", encoding="utf-8") as file:
-        rows = [row for row in csv.DictReader(file) if line in row.values()]
+        rows = [row for row in csv.DictReader(file) if row["name"] == line]
 
     def column(key):
         return np.array([float(row[key]) if row[key] else np.nan for row in rows])
