@@ -99,6 +99,7 @@ class Evaluations(RunTest):
         mueller = load("mueller")
         # A void fraction that falls by 0.1 across the box, and what was measured.
         at, value = mueller.points(0.6, 0.0164, "void_fraction")
+        self.assertEqual(len(at), 22, "points seen by magnetic resonance, without simulations")
         expected = math.sqrt(np.mean((0.6 - at / 0.44 - value) ** 2))
         with open(self.path / "averages-lines-01.csv", "w", encoding="utf-8") as file:
             file.write("name,x,solid_fraction,velocity_z\nelsewhere,0.0,0.9,\n")
