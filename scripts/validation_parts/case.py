@@ -43,7 +43,7 @@ class Comparison:
     error: float = None  # of ours, one standard deviation; None if there is none to speak of
     limit: float = None  # on the distance of both; None if it is only shown
     relative: bool = True  # the limit is a part of the expected value
-    decimals: int = 3
+    decimals: int = 3  # -1: two digits, however small
 
     @property
     def deviation(self):

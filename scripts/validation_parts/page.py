@@ -59,8 +59,10 @@ def read_case(file):
 
 def number(text, decimals):
     """A cell of the page."""
-    value = as_number(text)
-    return "" if value is None else f"{value:.{int(decimals)}f}"
+    value, places = as_number(text), int(decimals)
+    if value is None:
+        return ""
+    return f"{value:.2g}" if places < 0 else f"{value:.{places}f}"
 
 
 def with_error(row):
@@ -76,7 +78,7 @@ def distance(row, key, sign=""):
         return "shown"
     if as_flag(row["relative"]):
         return f"{value * PERCENT:{sign}.1f} %"
-    return f"{value:{sign}.{int(row['decimals'])}f}"
+    return ("+" if sign and value > 0.0 else "") + number(row[key], row["decimals"])
 
 
 def case_rows(name, rows, seconds):

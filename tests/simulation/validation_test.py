@@ -85,6 +85,10 @@ class Page(unittest.TestCase):
         row = {"quantity": "drop", "unit": "Pa", "expected": "100.0", "ours": "99.0",
                "error": "0.5", "deviation": "-0.01", "limit": "0.02", "relative": "True",
                "met": "True", "decimals": "1"}  # fmt: skip
+        small = {**row, "ours": "1.23e-14", "deviation": "1.23e-14", "relative": "False",
+                 "limit": "1e-10", "decimals": "-1", "error": ""}  # fmt: skip
+        (line,) = page.case_rows("gas", [small], 12.3)
+        self.assertEqual(line[3:6], ["1.2e-14", "+1.2e-14", "1e-10"])
         (line,) = page.case_rows("gas", [row], 12.3)
         self.assertEqual(
             line,
