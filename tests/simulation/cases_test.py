@@ -5,6 +5,7 @@ same but for what must not matter.
 """
 
 import hashlib
+import json
 import math
 import shutil
 import subprocess
@@ -12,6 +13,7 @@ import subprocess
 from runs import ROOT, RunTest, call, main
 
 from common.particles import positions
+from common.reference import ergun_pressure_drop
 
 CASES = ROOT / "tests" / "cases"
 # A tenth of a sphere's diameter [m]: what two packings of the same bed may differ by.
@@ -355,6 +357,37 @@ class OriginalBed(CaseTest):
         simulated = 1.0 - run.bed["mean_void_fraction"]
         ends = (1.0 - simulated / mean(thickness)) / scale
         self.assert_close(original, mean(thickness / scale) * (1.0 - ends), 2e-3, "original")
+
+    def test_is_the_same_on_two_ranks(self):
+        packed = {"Original bed/void fraction": "simulated", "Flow/superficial velocities": ""}
+        one, two = (self.finished("orig", packed, ranks=ranks).bed for ranks in (1, 2))
+        self.assertEqual(one["original_void_fraction"], two["original_void_fraction"])
+
+    def test_the_ladder_multiplies_what_is_smooth(self):
+        run = self.finished("orig", {
+            "Original bed/void fraction": "simulated",
+            "Refinement study/vary": "scale",
+            "Refinement study/values": "3, 2.5, 2",
+        })  # fmt: skip
+        rows = [row for row in run.rows("study.csv") if row["level"] == 3]
+
+        def at_one(start):
+            (row,) = [row for row in rows if row["quantity"].startswith(start)]
+            return row["extrapolated"], row["grid_convergence_index"]
+
+        drop, error = at_one("pressure drop at")
+        over, of_over = at_one("pressure drop over Ergun's")
+        ergun, of_ergun = at_one("Ergun's value of the original bed")
+        self.assert_close(drop, over * ergun, 1e-8, "drop")
+        self.assert_close(error, math.hypot(of_over, of_ergun), 1e-8, "error")
+        # Ergun's value at the void fraction that the bed tells, for its solid on the section.
+        bed = json.loads((run.directory / "level-3" / "summary.json").read_text())["bed"]
+        solid = 1.0 - bed["original_void_fraction"]
+        height = bed["height"] * (1.0 - bed["mean_void_fraction"]) / solid
+        level = [row["value"] for row in rows if row["quantity"].startswith("Ergun's value")]
+        fluid = (1.18415, 1.85508e-5)
+        expected = ergun_pressure_drop(0.3, height, 1.0 - solid, 1e-3, *fluid)
+        self.assert_close(level[0], expected, 1e-6, "Ergun's value of the original bed")
 
     def test_of_unscaled_particles_is_their_own(self):
         run = self.finished("orig", {"Original bed/void fraction": "correlation",
