@@ -183,9 +183,18 @@ namespace graupel
         rest.mean_void_fraction = bed.mean_void_fraction;
       }
     state.progress.say(describe_bed(rest, state.dem));
+    std::optional<OriginalPacking> packing;
+    if (const auto scale = state.parameters.common_scale())
+      packing = packing_of_smaller(state.dem, bed, rest.particle_diameter, *scale);
+    if (packing)
+      rest.original_void_fraction = packing->mean_void_fraction;
     if (state.parameters.sweep.has_fluid())
-      rest.original_solid_ratio = original_solid_ratio(
-        state.parameters, bed, state.progress, summary.costs, state.communicator);
+      rest.original_solid_ratio = original_solid_ratio(state.parameters,
+                                                       bed,
+                                                       packing,
+                                                       state.progress,
+                                                       summary.costs,
+                                                       state.communicator);
     const CostSheet::Scope timing(summary.costs, CostSheet::output);
     const DemState         particles = state.dem.state();
     if (mpi::this_mpi_process(state.communicator) == 0)

@@ -1,5 +1,6 @@
 #include <graupel/base/parameters.h>
 #include <graupel/closures/bed_correlations.h>
+#include <graupel/dem/bed/wall_layer.h>
 #include <graupel/simulation/parameters/probe_points.h>
 #include <graupel/simulation/parameters/run_parameters.h>
 
@@ -91,8 +92,15 @@ namespace graupel
   RunParameters::check_original_bed() const
   {
     original_bed.check();
-    if (original_bed.void_fraction != "measured")
-      return;
+    if (original_bed.void_fraction == "measured")
+      check_measured_bed();
+    if (original_bed.void_fraction == "correlation")
+      check_wall_layer();
+  }
+
+  void
+  RunParameters::check_measured_bed() const
+  {
     const RunParameters original = of_original_bed();
     try
       {
@@ -132,6 +140,32 @@ namespace graupel
                 "Averages/from",
                 reason.str());
       }
+  }
+
+  void
+  RunParameters::check_wall_layer() const
+  {
+    const auto refused_if = [](const bool is_so, const std::string &reason) {
+      require(!is_so,
+              "Original bed/void fraction",
+              "the correlation follows the layer at the wall of a cylinder, but " +
+                reason + "; choose measured, or the void fraction itself");
+    };
+    refused_if(dem.walls.from_mesh ||
+                 !Vessel(cylinder, dem.walls.walls(cylinder)).is_tube(),
+               "other walls cut this one");
+    refused_if(cylinder.diameter < narrowest_tube * simulated_diameter(),
+               "this one is less than three simulated particles across");
+    refused_if(!common_scale(), "the types of particles have several scales");
+  }
+
+  std::optional<double>
+  RunParameters::common_scale() const
+  {
+    for (const ParticleType &type : dem.types())
+      if (type.scale != dem.particles.scale)
+        return {};
+    return dem.particles.scale;
   }
 
   double

@@ -46,6 +46,8 @@ namespace graupel
 
     /** Diameter of a simulated particle [m]. */
     double simulated_diameter() const;
+    /** The scale of all types; none if they have several [-]. */
+    std::optional<double> common_scale() const;
     /** Filter length in use [m]. */
     double filter_length() const;
 
@@ -61,6 +63,8 @@ namespace graupel
   private:
     void check_original_bed() const;
     void check_averages() const;
+    void check_measured_bed() const;
+    void check_wall_layer() const;
   };
 } // namespace graupel
 
