@@ -449,24 +449,16 @@ namespace graupel
   Dem::original_sauter_diameter() const
   {
     const auto types = input.types();
-    // Volumes, and areas of that volume in original particles over six; each exact, so
-    // that no division among ranks shows.
-    const auto area = [&](const double radius, const unsigned int type) {
-      return sphere_volume(radius) * types[type].scale / (2. * radius);
-    };
-    double largest_area = 0.;
-    for (unsigned int type = 0; type < types.size(); ++type)
-      largest_area = std::max(largest_area, area(types[type].largest_radius(), type));
-    std::vector<ExactSum> sums{ExactSum(sphere_volume(input.largest_radius())),
-                               ExactSum(largest_area)};
+    double     solid = 0., over_diameter = 0.;
     for (unsigned int i = 0; i < arrays.n_owned; ++i)
       {
-        const double radius = arrays.body[i].radius;
-        sums[0].add(sphere_volume(radius));
-        sums[1].add(area(radius, arrays.type[i]));
+        const double radius = arrays.body[i].radius, volume = sphere_volume(radius);
+        solid += volume;
+        over_diameter += volume * types[arrays.type[i]].scale / (2. * radius);
       }
-    const auto totals = ExactSum::totals(sums, communicator());
-    return totals[1] > 0. ? totals[0] / totals[1] : input.mean_original_diameter();
+    over_diameter = mpi::sum(over_diameter, communicator());
+    return over_diameter > 0. ? mpi::sum(solid, communicator()) / over_diameter
+                              : input.mean_original_diameter();
   }
 
   double
