@@ -16,9 +16,7 @@ namespace graupel
     , quadrature(dealii::QGauss<3>(2))
     , dof_handler(mesh.triangulation())
   {
-    dof_handler.distribute_dofs(fe);
-    // As the order of the cells, so that it does not depend on the mesh's past.
-    dealii::DoFRenumbering::hierarchical(dof_handler);
+    number_nodes();
     owned = dof_handler.locally_owned_dofs();
     dealii::DoFTools::extract_locally_relevant_dofs(dof_handler, relevant);
     hanging_nodes.reinit(relevant);
@@ -91,6 +89,13 @@ namespace graupel
       }
     for (NodalVector *field : fields)
       field->update_ghost_values();
+  }
+
+  void
+  NodalSpace::number_nodes()
+  {
+    dof_handler.distribute_dofs(fe);
+    dealii::DoFRenumbering::hierarchical(dof_handler);
   }
 
   void

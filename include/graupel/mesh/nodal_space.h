@@ -37,6 +37,10 @@ namespace graupel
     /** The entries of a matrix that couples nodes which share a cell. */
     dealii::TrilinosWrappers::SparsityPattern coupling_pattern;
 
+    /** Numbers the nodes of the mesh as it is now, in the order of its cells: the past of
+     * the mesh does not show. Vectors of another numbering are void. Collective. */
+    void number_nodes();
+
     /** Makes @p vector a zero vector of the nodes, with room for ghosts. */
     void initialize(NodalVector &vector) const;
 

@@ -104,7 +104,7 @@ namespace graupel
     particles_and_fluid.reset();
     solver.reset();
     dem.adapt_mesh(cell_share);
-    node_space->dof_handler.distribute_dofs(node_space->fe);
+    node_space->number_nodes();
 
     const NodalSpace           fresh(mesh);
     std::array<NodalVector, 4> fields;
