@@ -17,7 +17,7 @@ try:
     from common.runs import Runs
     from common.style import ORANGE, VERMILLION, render
     from paper_parts import figures, page
-    except ImportError as error:
+except ImportError as error:
     sys.exit(f"paper.py: {error}. It needs Debian's python3-matplotlib.")
 
 ROOT = Path(__file__).resolve().parents[1]

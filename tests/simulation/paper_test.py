@@ -5,13 +5,15 @@ import base64
 import math
 import pathlib
 import struct
+import subprocess
 import sys
 import tempfile
 import unittest
 import zlib
 
 sys.dont_write_bytecode = True
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "scripts"))
+SCRIPTS = pathlib.Path(__file__).resolve().parents[2] / "scripts"
+sys.path.insert(0, str(SCRIPTS))
 
 import numpy as np
 
@@ -110,6 +112,18 @@ class Particles(unittest.TestCase):
             )
             read = particles.positions(pathlib.Path(folder))
         np.testing.assert_array_equal(read, first + second)
+
+
+class Scripts(unittest.TestCase):
+    """The programs themselves, which the other tests import from."""
+
+    def test_each_tells_how_it_is_called(self):
+        for name in ("paper.py", "report.py", "validate"):
+            done = subprocess.run(
+                [sys.executable, SCRIPTS / name, "--help"], capture_output=True, text=True
+            )
+            self.assertEqual(done.returncode, 0, f"{name}: {done.stderr}")
+            self.assertIn("usage", done.stdout)
 
 
 if __name__ == "__main__":
