@@ -1,5 +1,4 @@
 #include <graupel/coupling/filter.h>
-#include <graupel/mesh/cell_order.h>
 
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/fe/fe_values.h>
@@ -48,7 +47,7 @@ namespace graupel
     const unsigned int                           n = nodes.fe.n_dofs_per_cell();
     dealii::FullMatrix<double>                   local(n, n);
     std::vector<dealii::types::global_dof_index> indices(n);
-    for (const auto &cell : owned_cells(nodes.dof_handler))
+    for (const auto &cell : nodes.owned_cells())
       {
         values.reinit(cell);
         local = 0.;

@@ -1,5 +1,4 @@
 #include <graupel/fluid/flow_space.h>
-#include <graupel/mesh/cell_order.h>
 
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/dofs/dof_renumbering.h>
@@ -52,7 +51,7 @@ namespace graupel
     const auto         &partitioner = *nodes.measure().get_partitioner();
     std::vector<dealii::types::global_dof_index> scalar(nodes_per_cell);
     std::vector<dealii::types::global_dof_index> unknowns(fe.n_dofs_per_cell());
-    for (const auto &cell : owned_cells(nodes.dof_handler))
+    for (const auto &cell : nodes.owned_cells())
       {
         values.reinit(cell);
         cell->get_dof_indices(scalar);
@@ -98,7 +97,7 @@ namespace graupel
       dealii::update_values | dealii::update_gradients | dealii::update_JxW_values |
         dealii::update_normal_vectors | dealii::update_quadrature_points);
     unsigned int number = 0;
-    for (const auto &cell : owned_cells(nodes.dof_handler))
+    for (const auto &cell : nodes.owned_cells())
       {
         for (const unsigned int f : cell->face_indices())
           if (cell->face(f)->at_boundary())

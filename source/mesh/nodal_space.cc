@@ -1,4 +1,3 @@
-#include <graupel/mesh/cell_order.h>
 #include <graupel/mesh/nodal_space.h>
 
 #include <deal.II/base/quadrature_lib.h>
@@ -35,7 +34,7 @@ namespace graupel
       mesh.mapping(), fe, quadrature, dealii::update_values | dealii::update_JxW_values);
     dealii::Vector<double>                       cell_volumes(fe.n_dofs_per_cell());
     std::vector<dealii::types::global_dof_index> nodes(fe.n_dofs_per_cell());
-    for (const auto &cell : owned_cells(dof_handler))
+    for (const auto &cell : owned_cells())
       {
         values.reinit(cell);
         cell_volumes = 0.;
@@ -49,11 +48,21 @@ namespace graupel
     volumes.update_ghost_values();
   }
 
+  std::vector<dealii::DoFHandler<3>::active_cell_iterator>
+  NodalSpace::owned_cells() const
+  {
+    std::vector<dealii::DoFHandler<3>::active_cell_iterator> result;
+    for (const auto &cell : mesh.owned_cells())
+      result.emplace_back(
+        &dof_handler.get_triangulation(), cell->level(), cell->index(), &dof_handler);
+    return result;
+  }
+
   void
   NodalSpace::append(VesselMesh::CellBytes                  &bytes,
                      const std::vector<const NodalVector *> &fields) const
   {
-    const auto cells = owned_cells(dof_handler);
+    const auto cells = owned_cells();
     bytes.resize(cells.size());
     for (std::size_t c = 0; c < cells.size(); ++c)
       for (const auto *field : fields)
@@ -71,7 +80,7 @@ namespace graupel
   {
     for (NodalVector *field : fields)
       initialize(*field);
-    const auto cells = owned_cells(dof_handler);
+    const auto cells = owned_cells();
     for (std::size_t c = 0; c < cells.size(); ++c)
       {
         const std::size_t of_cell = fields.size() * fe.n_dofs_per_cell() * sizeof(double);

@@ -1,5 +1,4 @@
 #include <graupel/base/parameters.h>
-#include <graupel/mesh/cell_order.h>
 #include <graupel/mesh/gmsh_file.h>
 #include <graupel/mesh/vessel_mesh.h>
 
@@ -161,6 +160,7 @@ namespace graupel
              dealii::parallel::distributed::Triangulation<3>::default_setting)
     , quadratic(2)
   {
+    forget_cells_when_they_change();
     if (!parameters.file.empty())
       {
         make_from_file(parameters.file, parameters.cell_size);
@@ -179,6 +179,34 @@ namespace graupel
     forest.set_manifold(curved, dealii::CylindricalManifold<3>(2));
     forest.refine_global(disc.refinements);
     initial_level = disc.refinements;
+  }
+
+  void
+  VesselMesh::forget_cells_when_they_change()
+  {
+    auto &signals = forest.signals;
+    for (auto *signal : {&signals.any_change,
+                         &signals.post_distributed_refinement,
+                         &signals.post_distributed_repartition,
+                         &signals.post_distributed_load})
+      signal->connect([this]() { cells.clear(); });
+  }
+
+  const std::vector<VesselMesh::CellIterator> &
+  VesselMesh::owned_cells() const
+  {
+    if (!cells.empty())
+      return cells;
+    std::vector<std::pair<dealii::CellId, CellIterator>> by_id;
+    for (const auto &cell : forest.active_cell_iterators())
+      if (cell->is_locally_owned())
+        by_id.emplace_back(cell->id(), cell);
+    std::sort(by_id.begin(), by_id.end(), [](const auto &a, const auto &b) {
+      return a.first < b.first;
+    });
+    for (const auto &[id, cell] : by_id)
+      cells.push_back(cell);
+    return cells;
   }
 
   void
@@ -273,7 +301,7 @@ namespace graupel
   VesselMesh::attach(const CellBytes &bytes)
   {
     std::map<dealii::CellId, unsigned int> number;
-    for (const auto &cell : owned_cells(forest))
+    for (const auto &cell : owned_cells())
       number.emplace(cell->id(), number.size());
     return forest.register_data_attach(
       [&bytes, number](const Forest::cell_iterator &cell, const CellStatus) {
@@ -350,11 +378,11 @@ namespace graupel
         forest.execute_coarsening_and_refinement();
       }
     forest.load(file);
-    const CellBytes bytes = detach(attach({}));
-    const auto      now   = this->partition();
-    return partition.size() == now.size() && partition != now
-             ? divide_as(partition, bytes)
-             : bytes;
+    CellBytes  bytes = detach(attach({}));
+    const auto now   = this->partition();
+    if (partition.size() == now.size() && partition != now)
+      return divide_as(partition, bytes);
+    return bytes;
   }
 
   double

@@ -37,6 +37,9 @@ namespace graupel
     /** The entries of a matrix that couples nodes which share a cell. */
     dealii::TrilinosWrappers::SparsityPattern coupling_pattern;
 
+    /** VesselMesh::owned_cells(), with their nodes. */
+    std::vector<dealii::DoFHandler<3>::active_cell_iterator> owned_cells() const;
+
     /** Numbers the nodes of the mesh as it is now, in the order of its cells: the past of
      * the mesh does not show. Vectors of another numbering are void. Collective. */
     void number_nodes();

@@ -69,6 +69,16 @@ namespace graupel
       return forest;
     }
 
+    using CellIterator = dealii::Triangulation<3>::active_cell_iterator;
+
+    /**
+     * The active cells that this rank owns, in the order of their CellIds: by coarse cell
+     * and its children, however the mesh came to be what it is. The library's own order
+     * is another after a mesh was read or divided anew, and with it the rounding of every
+     * sum over cells. Found once for a mesh.
+     */
+    const std::vector<CellIterator> &owned_cells() const;
+
     const dealii::Mapping<3> &
     mapping() const
     {
@@ -143,7 +153,8 @@ namespace graupel
      */
     void adapt(const CellWeight &weight);
 
-    /** Bytes of each own active cell, in the order of owned_cells(); equally many each. */
+    /** Bytes of each own active cell, in the order of owned_cells(); equally many each.
+     */
     using CellBytes = std::vector<std::vector<char>>;
 
     /** Writes the refinement and @p bytes to files whose names begin with @p file.
@@ -165,6 +176,7 @@ namespace graupel
     double smallest_edge() const;
 
   private:
+    void         forget_cells_when_they_change();
     void         make_from_file(const std::string &file, const double cell_size);
     unsigned int attach(const CellBytes &bytes);
     CellBytes    detach(const unsigned int handle);
@@ -175,6 +187,7 @@ namespace graupel
     dealii::parallel::distributed::Triangulation<3> forest;
     dealii::MappingQ<3>                             quadratic;
     int                                             initial_level = 0;
+    mutable std::vector<CellIterator>               cells; // of owned_cells(), or none
     std::shared_ptr<const MeshOutline>              contour;
   };
 } // namespace graupel

@@ -1,7 +1,6 @@
 #include <graupel/dem/particles/dem_error.h>
 #include <graupel/dem/particles/parcel.h>
 #include <graupel/dem/particles/particle_store.h>
-#include <graupel/mesh/cell_order.h>
 
 #include <deal.II/grid/grid_tools.h>
 
@@ -268,7 +267,7 @@ namespace graupel
     std::vector<std::pair<std::int64_t, dealii::Particles::ParticleIterator<3>>> by_id;
     cells.clear();
     std::uint32_t row = 0;
-    for (const auto &cell : owned_cells(mesh.triangulation()))
+    for (const auto &cell : mesh.owned_cells())
       {
         if (handler.n_particles_in_cell(cell) == 0)
           continue;

@@ -259,10 +259,12 @@ namespace graupel
   }
 
   void
-  ResultFiles::write_averages(const unsigned int number, const CaseAverages &averages)
+  ResultFiles::write_averages(const unsigned int                   number,
+                              const CaseAverages                  &averages,
+                              const std::vector<SeriesStatistics> &window)
   {
-    write_table(numbered("averages", number), averages.series_table());
-    write_table(numbered("spectra", number), averages.spectra_table());
+    write_table(numbered("averages", number), series_table(window));
+    write_table(numbered("spectra", number), spectra_table(window));
     write_table(numbered("averages-lines", number), averages.lines_table());
     write_table(numbered("averages-planes", number), averages.planes_table());
   }

@@ -226,17 +226,12 @@ namespace graupel
   void
   BinAverages::look_at_fluid(const CoupledFlow &flow, const double duration)
   {
-    // Void fraction, pressure and flux; on the first rank.
-    constexpr unsigned int                   n_fields = 5;
-    const NodalVectorField                  &flux     = flow.fluid().flux();
-    const std::array<const NodalVector *, 5> fields{
-      {&flow.exchange().medium().void_fraction,
-       &flow.fluid().pressure(),
-       &flux[0],
-       &flux[1],
-       &flux[2]}};
-    std::vector<double> means(bins.size() * n_fields, 0.);
-    std::vector<double> found(bins.size(), 0.);
+    // On the first rank.
+    using Field                     = FieldAverages;
+    constexpr unsigned int n_fields = Field::n_fields;
+    const Field::Fields    fields   = Field::of(flow);
+    std::vector<double>    means(bins.size() * n_fields, 0.);
+    std::vector<double>    found(bins.size(), 0.);
     for (unsigned int field = 0; field < n_fields; ++field)
       {
         const auto values = dealii::VectorTools::point_values<1>(
@@ -255,10 +250,10 @@ namespace graupel
       if (found[bin] > 0.)
         {
           const double *const mean = &means[bin * n_fields];
-          bins[bin].void_fraction.add(mean[0] / found[bin], duration);
-          bins[bin].pressure.add(mean[1] / found[bin], duration);
+          bins[bin].void_fraction.add(mean[Field::void_fraction] / found[bin], duration);
+          bins[bin].pressure.add(mean[Field::pressure] / found[bin], duration);
           for (unsigned int i = 0; i < 3; ++i)
-            bins[bin].flux[i].add(mean[2 + i] / found[bin], duration);
+            bins[bin].flux[i].add(mean[Field::flux + i] / found[bin], duration);
         }
   }
 

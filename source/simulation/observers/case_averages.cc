@@ -187,10 +187,10 @@ namespace graupel
   }
 
   std::string
-  CaseAverages::series_table() const
+  series_table(const std::vector<SeriesStatistics> &statistics)
   {
     std::string text;
-    for (const SeriesStatistics &series : statistics())
+    for (const SeriesStatistics &series : statistics)
       {
         text += series.name + "," + series.unit + "," + std::to_string(series.samples);
         for (const Value &value :
@@ -203,10 +203,9 @@ namespace graupel
   }
 
   std::string
-  CaseAverages::spectra_table() const
+  spectra_table(const std::vector<SeriesStatistics> &statistics)
   {
-    const auto all    = statistics();
-    const auto series = those_with_spectra(all);
+    const auto series = those_with_spectra(statistics);
     if (series.empty())
       return "";
     std::string text = "frequency";

@@ -180,11 +180,11 @@ namespace graupel
       files.add_contacts(state.time, state.dem);
     files.write_cases(series.results);
     if (state.parameters.averages.are_wanted())
-      write_averages();
+      write_averages(view.course.window);
   }
 
   void
-  FlowCase::write_averages()
+  FlowCase::write_averages(const std::vector<SeriesStatistics> &statistics)
   {
     const AveragesParameters &window = state.parameters.averages;
     if (!window.has_ended(frame.time()))
@@ -195,7 +195,7 @@ namespace graupel
              << " to " << window.to << " s";
         state.progress.say(text.str());
       }
-    files.write_averages(number, averages);
+    files.write_averages(number, averages, statistics);
     if (!state.fluid || state.averages.averaged_time() == 0.)
       return;
     const NodalSpace &nodes = state.fluid->nodes();

@@ -2,19 +2,16 @@
 
 namespace graupel
 {
-  namespace
+  FieldAverages::Fields
+  FieldAverages::of(const CoupledFlow &flow)
   {
-    std::array<const NodalVector *, FieldAverages::n_fields>
-    fields_of(const CoupledFlow &flow)
-    {
-      const NodalVectorField &q = flow.fluid().flux();
-      return {{&flow.exchange().medium().void_fraction,
-               &flow.fluid().pressure(),
-               &q[0],
-               &q[1],
-               &q[2]}};
-    }
-  } // namespace
+    const NodalVectorField &q = flow.fluid().flux();
+    return {{&flow.exchange().medium().void_fraction,
+             &flow.fluid().pressure(),
+             &q[0],
+             &q[1],
+             &q[2]}};
+  }
 
   void
   FieldAverages::record(const CoupledFlow &flow, const double duration)
@@ -23,7 +20,7 @@ namespace graupel
       for (NodalVector *field : all())
         flow.nodes().initialize(*field);
     time += duration;
-    const auto fields = fields_of(flow);
+    const auto fields = of(flow);
     for (unsigned int f = 0; f < n_fields; ++f)
       {
         for (unsigned int k = 0; k < means[f].locally_owned_size(); ++k)

@@ -92,9 +92,11 @@ namespace graupel
                       const unsigned int             number,
                       const std::vector<PlanePoint> &points);
 
-    /** The tables of @p averages, with NN of the flow case @p number; none of what there
-     * is none of. */
-    void write_averages(const unsigned int number, const CaseAverages &averages);
+    /** The tables of @p averages, whose statistics() are @p window, with NN of the flow
+     * case @p number; none of what there is none of. */
+    void write_averages(const unsigned int                   number,
+                        const CaseAverages                  &averages,
+                        const std::vector<SeriesStatistics> &window);
 
     /**
      * bed-axial.csv, bed-radial.csv, bed-janssen.csv, bed-coordination.csv and

@@ -33,6 +33,11 @@ namespace graupel
                                  const std::vector<double> &weights,
                                  const std::vector<double> &values);
 
+  /** averages-NN.csv and spectra-NN.csv of CaseAverages::statistics(); empty what there
+   * is none of. */
+  std::string series_table(const std::vector<SeriesStatistics> &statistics);
+  std::string spectra_table(const std::vector<SeriesStatistics> &statistics);
+
   /**
    * The means of one flow case over the window of "Averages": of monitors and probes step
    * by step, of particles and fluid in bins, and of the fluid's fields, which are the
@@ -59,10 +64,7 @@ namespace graupel
     /** Of all monitors, then of all columns of the probes; empty without a window. */
     std::vector<SeriesStatistics> statistics() const;
 
-    /** averages-NN.csv, spectra-NN.csv, averages-lines-NN.csv and averages-planes-NN.csv;
-     * empty what there is none of. */
-    std::string series_table() const;
-    std::string spectra_table() const;
+    /** averages-lines-NN.csv and averages-planes-NN.csv; empty what there is none of. */
     std::string lines_table() const;
     std::string planes_table() const;
 

@@ -58,7 +58,7 @@ namespace graupel
     void keep(const MonitorRow &row);
     void average(const MonitorRow &row);
     void write_results(const CaseView &view, const CaseResult &result);
-    void write_averages();
+    void write_averages(const std::vector<SeriesStatistics> &statistics);
 
     const unsigned int            number;
     SimulationState              &state;

@@ -22,6 +22,11 @@ namespace graupel
       n_fields = flux + 3
     };
 
+    using Fields = std::array<const NodalVector *, n_fields>;
+
+    /** Those of @p flow as it is now, which must outlive them. */
+    static Fields of(const CoupledFlow &flow);
+
     /** Takes in the fields of @p flow as of the last @p duration [s]. */
     void record(const CoupledFlow &flow, const double duration);
 
