@@ -9,10 +9,13 @@
 #include <deal.II/grid/tria_accessor.h>
 #include <deal.II/grid/tria_iterator.h>
 
+#include <numeric>
 #include <sstream>
 
 namespace graupel
 {
+  using Forest = dealii::parallel::distributed::Triangulation<3>;
+
   namespace
   {
     constexpr dealii::types::manifold_id curved = 0;
@@ -157,6 +160,7 @@ namespace graupel
              dealii::parallel::distributed::Triangulation<3>::default_setting)
     , quadratic(2)
   {
+    forget_cells_when_they_change();
     if (!parameters.file.empty())
       {
         make_from_file(parameters.file, parameters.cell_size);
@@ -175,6 +179,34 @@ namespace graupel
     forest.set_manifold(curved, dealii::CylindricalManifold<3>(2));
     forest.refine_global(disc.refinements);
     initial_level = disc.refinements;
+  }
+
+  void
+  VesselMesh::forget_cells_when_they_change()
+  {
+    auto &signals = forest.signals;
+    for (auto *signal : {&signals.any_change,
+                         &signals.post_distributed_refinement,
+                         &signals.post_distributed_repartition,
+                         &signals.post_distributed_load})
+      signal->connect([this]() { cells.clear(); });
+  }
+
+  const std::vector<VesselMesh::CellIterator> &
+  VesselMesh::owned_cells() const
+  {
+    if (!cells.empty())
+      return cells;
+    std::vector<std::pair<dealii::CellId, CellIterator>> by_id;
+    for (const auto &cell : forest.active_cell_iterators())
+      if (cell->is_locally_owned())
+        by_id.emplace_back(cell->id(), cell);
+    std::sort(by_id.begin(), by_id.end(), [](const auto &a, const auto &b) {
+      return a.first < b.first;
+    });
+    for (const auto &[id, cell] : by_id)
+      cells.push_back(cell);
+    return cells;
   }
 
   void
@@ -265,14 +297,77 @@ namespace graupel
     connection.disconnect();
   }
 
-  void
-  VesselMesh::save(const std::string &file) const
+  unsigned int
+  VesselMesh::attach(const CellBytes &bytes)
   {
-    forest.save(file);
+    std::map<dealii::CellId, unsigned int> number;
+    for (const auto &cell : owned_cells())
+      number.emplace(cell->id(), number.size());
+    return forest.register_data_attach(
+      [&bytes, number](const Forest::cell_iterator &cell, const CellStatus) {
+        return bytes[number.at(cell->id())];
+      },
+      false);
+  }
+
+  VesselMesh::CellBytes
+  VesselMesh::detach(const unsigned int handle)
+  {
+    std::map<dealii::CellId, std::vector<char>> bytes;
+    forest.notify_ready_to_unpack(
+      handle,
+      [&](const Forest::cell_iterator &cell,
+          const CellStatus,
+          const boost::iterator_range<std::vector<char>::const_iterator> &data) {
+        bytes[cell->id()].assign(data.begin(), data.end());
+      });
+    CellBytes result;
+    for (auto &[id, of_cell] : bytes)
+      result.push_back(std::move(of_cell));
+    return result;
   }
 
   void
-  VesselMesh::load(const std::string &file)
+  VesselMesh::save(const std::string &file, const CellBytes &bytes) const
+  {
+    // The mesh does not change by what is attached to it for the time of the call.
+    const_cast<VesselMesh *>(this)->attach(bytes);
+    forest.save(file);
+  }
+
+  std::vector<unsigned int>
+  VesselMesh::partition() const
+  {
+    return dealii::Utilities::MPI::all_gather(communicator(),
+                                              forest.n_locally_owned_active_cells());
+  }
+
+  VesselMesh::CellBytes
+  VesselMesh::divide_as(const std::vector<unsigned int> &partition,
+                        const CellBytes                 &bytes)
+  {
+    // p4est cuts where the sum of all weights so far reaches the next whole number: at
+    // the last cell of each rank. It asks for them in its own order of the cells.
+    std::map<unsigned int, unsigned int> ranks_ending_at;
+    unsigned int                         end = 0;
+    for (const unsigned int n : partition)
+      ++ranks_ending_at[end += n];
+    const auto   now  = this->partition();
+    const auto   mine = dealii::Utilities::MPI::this_mpi_process(communicator());
+    unsigned int past = std::accumulate(now.begin(), now.begin() + mine, 0u);
+    const auto   connection =
+      forest.signals.weight.connect([&](const auto &, const auto) -> unsigned int {
+        const auto found = ranks_ending_at.find(++past);
+        return found == ranks_ending_at.end() ? 0 : found->second;
+      });
+    const unsigned int handle = attach(bytes);
+    forest.repartition();
+    connection.disconnect();
+    return detach(handle);
+  }
+
+  VesselMesh::CellBytes
+  VesselMesh::load(const std::string &file, const std::vector<unsigned int> &partition)
   {
     // p4est reads onto the coarse cells only.
     while (forest.n_global_levels() > 1)
@@ -283,6 +378,11 @@ namespace graupel
         forest.execute_coarsening_and_refinement();
       }
     forest.load(file);
+    CellBytes  bytes = detach(attach({}));
+    const auto now   = this->partition();
+    if (partition.size() == now.size() && partition != now)
+      return divide_as(partition, bytes);
+    return bytes;
   }
 
   double

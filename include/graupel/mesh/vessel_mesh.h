@@ -69,6 +69,16 @@ namespace graupel
       return forest;
     }
 
+    using CellIterator = dealii::Triangulation<3>::active_cell_iterator;
+
+    /**
+     * The active cells that this rank owns, in the order of their CellIds: by coarse cell
+     * and its children, however the mesh came to be what it is. The library's own order
+     * is another after a mesh was read or divided anew, and with it the rounding of every
+     * sum over cells. Found once for a mesh.
+     */
+    const std::vector<CellIterator> &owned_cells() const;
+
     const dealii::Mapping<3> &
     mapping() const
     {
@@ -143,26 +153,41 @@ namespace graupel
      */
     void adapt(const CellWeight &weight);
 
-    /** Writes the refinement, and what is attached for it, to files whose names begin
-     * with
-     * @p file. Collective. */
-    void save(const std::string &file) const;
+    /** Bytes of each own active cell, in the order of owned_cells(); equally many each.
+     */
+    using CellBytes = std::vector<std::vector<char>>;
 
-    /** Takes the refinement over from save(), of a mesh with the same parameters, on any
-     * number of ranks. Everything that knows the old mesh is void. Collective. */
-    void load(const std::string &file);
+    /** Writes the refinement and @p bytes to files whose names begin with @p file.
+     * Collective. */
+    void save(const std::string &file, const CellBytes &bytes) const;
+
+    /** Cells of each rank. Collective. */
+    std::vector<unsigned int> partition() const;
+
+    /**
+     * Takes the refinement over from save(), of a mesh with the same parameters, on any
+     * number of ranks; on as many as @p partition has numbers, with that partition(), so
+     * that sums over ranks come out the same. Everything that knows the old mesh is void.
+     * Returns the bytes that were saved. Collective.
+     */
+    CellBytes load(const std::string &file, const std::vector<unsigned int> &partition);
 
     /** The smallest distance between two vertices of one cell, over all ranks [m]. */
     double smallest_edge() const;
 
   private:
-    void make_from_file(const std::string &file, const double cell_size);
+    void         forget_cells_when_they_change();
+    void         make_from_file(const std::string &file, const double cell_size);
+    unsigned int attach(const CellBytes &bytes);
+    CellBytes    detach(const unsigned int handle);
+    CellBytes    divide_as(const std::vector<unsigned int> &partition, const CellBytes &);
 
     Cylinder                                        vessel;
     BoundaryIds                                     boundary_ids;
     dealii::parallel::distributed::Triangulation<3> forest;
     dealii::MappingQ<3>                             quadratic;
     int                                             initial_level = 0;
+    mutable std::vector<CellIterator>               cells; // of owned_cells(), or none
     std::shared_ptr<const MeshOutline>              contour;
   };
 } // namespace graupel

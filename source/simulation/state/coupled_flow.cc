@@ -15,11 +15,13 @@ namespace graupel
   } // namespace
 
   CoupledFlow::CoupledFlow(const RunParameters &parameters,
+                           const double         original_diameter,
                            const double         solid_ratio,
                            VesselMesh          &mesh,
                            Dem                 &dem,
                            CostSheet           &costs)
     : parameters(parameters)
+    , original_diameter(original_diameter)
     , solid_ratio(solid_ratio)
     , mesh(mesh)
     , dem(dem)
@@ -53,7 +55,7 @@ namespace graupel
       parameters.filter_length(),
       parameters.coupling.model == "A",
       LawVoidFraction{parameters.coupling.bed_surface == "sharp", solid_ratio},
-      parameters.drags(dem.original_sauter_diameter()),
+      parameters.drags(original_diameter),
       *node_space,
       costs);
   }
@@ -93,7 +95,7 @@ namespace graupel
     particles_and_fluid.reset();
     solver.reset();
     dem.adapt_mesh(cell_share);
-    node_space->dof_handler.distribute_dofs(node_space->fe);
+    node_space->number_nodes();
 
     const NodalSpace           fresh(mesh);
     std::array<NodalVector, 4> fields;
@@ -128,15 +130,11 @@ namespace graupel
   }
 
   void
-  CoupledFlow::save(const std::string &file) const
+  CoupledFlow::load(const FlowHistory           &history,
+                    const VesselMesh::CellBytes &bytes,
+                    const double                 stable_step)
   {
-    solver->save(file);
-  }
-
-  void
-  CoupledFlow::load(const FlowHistory &history, const double stable_step)
-  {
-    solver->restore(history);
+    solver->restore(history, bytes);
     superficial_velocity = history.last_velocity;
     look_at_bed();
     // The slip of the next drag is that of the last step, through the bed as it was then.

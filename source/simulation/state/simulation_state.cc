@@ -36,7 +36,8 @@ namespace graupel
   void
   SimulationState::make_fluid()
   {
-    fluid.emplace(parameters, rest.original_solid_ratio, mesh, dem, costs);
+    fluid.emplace(
+      parameters, rest.original_diameter, rest.original_solid_ratio, mesh, dem, costs);
   }
 
   void
