@@ -78,7 +78,8 @@ namespace graupel
                      const LawVoidFraction         &law_void_fraction,
                      const std::vector<DragOfType> &drags,
                      const NodalSpace              &nodes,
-                     CostSheet                     &costs)
+                     CostSheet                     &costs,
+                     const AddedForceLaws          &added_forces)
     : filter_length(filter_length)
     , law(law_void_fraction)
     , drags(drags)
@@ -89,6 +90,8 @@ namespace graupel
     , result(nodes)
   {
     result.shares_pressure = shares_pressure;
+    if (added_forces.parameters.any())
+      added.emplace(added_forces, nodes);
     for (NodalVector *field : {&solid_fraction, &scratch, &smooth_scratch})
       nodes.initialize(*field);
     for (NodalVectorField *field :
@@ -125,17 +128,8 @@ namespace graupel
         if (result.shares_pressure)
           filter.smooth(smooth_gradient[i], gradient[i]);
       }
-  }
-
-  template <typename Function>
-  void
-  Exchange::spread(NodalVector &x, const Function &value)
-  {
-    std::vector<double> values(beta.size());
-    for (unsigned int row = 0; row < values.size(); ++row)
-      values[row] = value(row);
-    transfer.deposit(scratch, values);
-    filter.spread(x, scratch);
+    if (added)
+      added->follow(flow, filter);
   }
 
   void
@@ -174,6 +168,7 @@ namespace graupel
     const CostSheet::Scope timing(costs, CostSheet::exchange);
     find_drag_coefficients(particles);
     response = held_response(particles);
+    find_added_forces(particles);
     answer.assign(particles.n_owned, 1.);
     result.solids.reset();
     spread(result.drag, [&](const unsigned int row) { return beta[row]; });
@@ -181,6 +176,7 @@ namespace graupel
       spread(result.drag_source[i], [&](const unsigned int row) {
         return beta[row] * response.velocity[row][i];
       });
+    add_forces();
   }
 
   void
@@ -190,6 +186,7 @@ namespace graupel
     const CostSheet::Scope timing(costs, CostSheet::exchange);
     find_drag_coefficients(particles);
     response = particle_response;
+    find_added_forces(particles);
     find_answers();
     if (!result.solids)
       result.solids.emplace(nodes);
@@ -220,6 +217,7 @@ namespace graupel
         });
       }
     put_back_old_fields();
+    add_forces();
   }
 
   void
@@ -229,7 +227,7 @@ namespace graupel
     double least = 1.;
     for (unsigned int row = 0; row < answer.size(); ++row)
       {
-        answer[row] = 1. / (1. + beta[row] * response.mobility[row]);
+        answer[row] = 1. / (1. + (beta[row] + inertia(row)) * response.mobility[row]);
         least       = std::min(least, answer[row]);
       }
     least    = dealii::Utilities::MPI::min(least, nodes.mesh.communicator());
@@ -311,6 +309,8 @@ namespace graupel
             force[row][i] =
               answer[row] * (beta[row] * (velocity[row] - response.velocity[row][i]) -
                              volume[row] * pressure[row]);
+            if (added)
+              force[row][i] += answer[row] * added_force(row, i, velocity[row]);
             fluid_force[i] += force[row][i];
           }
       }
@@ -360,8 +360,9 @@ namespace graupel
         const double radius = particles.body[row].radius, a = law_alpha[row];
         const double slope =
           drags[particles.type[row]].slope(a, slip[row], radius) / (of_drag[row] * a * a);
-        step = std::min(
-          step, graupel::stable_step(flow_alpha[row], particles.mass[row], slope));
+        const double mass =
+          particles.mass[row] + (added ? added->virtual_mass()[row] : 0.);
+        step = std::min(step, graupel::stable_step(flow_alpha[row], mass, slope));
       }
     return dealii::Utilities::MPI::min(step, nodes.mesh.communicator());
   }

@@ -33,6 +33,7 @@ namespace graupel
     const double                                                       longest_step)
   {
     ParticleResponse response = held_response(particles);
+    response.step             = step;
     const double     of_step  = std::clamp(4. * step / longest_step - 1., 0., 1.);
     for (unsigned int row = 0; row < particles.n_owned; ++row)
       {

@@ -4,6 +4,7 @@
 #include <graupel/dem/particles/particle_arrays.h>
 
 #include <functional>
+#include <limits>
 
 namespace graupel
 {
@@ -17,6 +18,8 @@ namespace graupel
     std::vector<dealii::Tensor<1, 3>> velocity;
     /** By row, 0 for a particle that is held [s/kg]. */
     std::vector<double> mobility;
+    /** The fluid's step [s]; infinite for one that seeks a steady flow. */
+    double step = std::numeric_limits<double>::infinity();
   };
 
   /** They go on as they do, whatever the fluid does. */

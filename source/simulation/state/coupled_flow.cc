@@ -49,7 +49,9 @@ namespace graupel
                    parameters.fluid.viscosity,
                    *node_space,
                    costs);
+    solver->share_viscous_stress(parameters.forces.viscous_stress);
     std::vector<DragOfType> drags;
+    AddedForceLaws          added{parameters.forces, parameters.fluid, {}};
     const bool              is_mixture = parameters.coupling.mixture == "sauter mean";
     const double            sauter     = dem.original_sauter_diameter();
     for (const auto &type : parameters.dem.types())
@@ -58,6 +60,7 @@ namespace graupel
         drags.push_back({Drag(parameters.drag, parameters.fluid, diameter, type.scale),
                          0.5 * type.scale * diameter,
                          is_mixture});
+        added.scales.push_back(type.scale);
       }
     particles_and_fluid.emplace(
       parameters.filter_length(),
@@ -65,7 +68,8 @@ namespace graupel
       LawVoidFraction{parameters.coupling.bed_surface == "sharp", solid_ratio},
       drags,
       *node_space,
-      costs);
+      costs,
+      added);
   }
 
   void
@@ -179,7 +183,8 @@ namespace graupel
     const auto report = solver->step(particles_and_fluid->medium(), step);
     dem.particles().external_force =
       particles_and_fluid->forces(dem.particles(), *solver, density, gravity);
-    longest_step = particles_and_fluid->stable_step(dem.particles());
+    dem.particles().external_torque = particles_and_fluid->torques(dem.particles(), step);
+    longest_step                    = particles_and_fluid->stable_step(dem.particles());
     return report;
   }
 
