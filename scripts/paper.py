@@ -14,10 +14,10 @@ from pathlib import Path
 
 try:
     from common.reference import paper_for
+    from common.runs import Runs
     from common.style import ORANGE, VERMILLION, render
     from paper_parts import figures, page
-    from paper_parts.runs import Runs
-except ImportError as error:
+    except ImportError as error:
     sys.exit(f"paper.py: {error}. It needs Debian's python3-matplotlib.")
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -84,7 +84,7 @@ def main():
     parser.add_argument("results", type=Path, help="directory of scripts/reproduce-paper")
     parser.add_argument("folder", type=Path, nargs="?", default=ROOT / "doc" / "paper")
     arguments = parser.parse_args()
-    runs = Runs(arguments.results)
+    runs = Runs(arguments.results, page.COMMAND)
     arguments.folder.mkdir(parents=True, exist_ok=True)
     try:
         plain = [(s, runs[f"ladder/level-{n}"]) for s, n in ((2, 3), (3, 2), (4, 1))]

@@ -17,7 +17,7 @@ from pathlib import Path
 try:
     from common import reference, style
     from common.run_output import read_run
-    from report_parts import figures_bed, figures_inside, figures_run, figures_settled
+    from report_parts import figures_averages, figures_bed, figures_inside, figures_run, figures_settled
     from report_parts import figures_time, page, study
 except ImportError as error:
     sys.exit(f"report.py: {error}. The report needs Debian's python3-matplotlib.")
@@ -31,6 +31,11 @@ FIGURES = {
     "void-fraction": figures_inside.void_fraction,
     "flux": figures_inside.flux,
     "radial": figures_inside.radial,
+    "bubbles": figures_averages.bubbles,
+    "averages-lines": figures_averages.lines,
+    "averages-planes": figures_averages.planes,
+    "averages-midplane": figures_averages.midplane,
+    "spectra": figures_averages.spectra,
     "bed-radial": figures_settled.bed_radial,
     "bed-janssen": figures_settled.bed_janssen,
     "monitors": figures_run.monitors,

@@ -52,7 +52,7 @@ namespace
       "FILE), and stop");
     app.add_flag("--print-columns",
                  options.print_columns,
-                 "Print the columns of monitors.csv and cases.csv and what a run that is "
+                 "Print the columns of monitors.csv, cases.csv and of bins and what a run that is "
                  "gone on with may change, as in the documentation, and stop");
     app
       .add_option("--set", options.overrides, "Override a value: \"Section/name=value\"")
@@ -70,7 +70,9 @@ namespace
   {
     std::cout << "## monitors.csv\n\n"
               << documentation(monitors()) << "\n## cases.csv\n\n"
-              << documentation(case_quantities()) << "\n## What may change\n\n"
+              << documentation(case_quantities())
+              << "\n## averages-lines-NN.csv, averages-planes-NN.csv\n\n"
+              << documentation(bin_quantities()) << "\n## What may change\n\n"
               << table_of_changes();
   }
 

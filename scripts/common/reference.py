@@ -109,13 +109,14 @@ def paper_for(run, table=TABLE_1):
     return paper
 
 
-def weight_per_area(run):
-    """Weight of the bed over the cross-section of the vessel [Pa]; None if unknown."""
+def weight_per_area(run, area=None):
+    """Weight of the bed over the cross-section [Pa]; None if unknown. @p area [m^2] is that of
+    a vessel that is no cylinder."""
     diameter = run.number("bed", "vessel_diameter")
     weights = [case["weight"] for case in run.cases if case["weight"] is not None]
-    if diameter is None or diameter <= 0.0 or not weights:
-        return None
-    return weights[0] / (math.pi * diameter**2 / 4.0)
+    if area is None and diameter is not None:
+        area = math.pi * diameter**2 / 4.0
+    return weights[0] / area if area and weights else None
 
 
 def parts_of_deviation(case):

@@ -72,7 +72,15 @@ BED_COLUMNS = {
     ),
 }
 MIDPLANE_COLUMNS = ("x", "z", "void_fraction", "superficial_velocity", "pressure")
-TEXT_COLUMNS = ("phase",)
+TEXT_COLUMNS = ("phase", "name", "quantity", "unit")
+# Tables of the means over time, STEM-NN.csv, which runs without a window do not have.
+AVERAGES_COLUMNS = {
+    "averages": ("quantity", "unit", "mean", "rms", "error", "frequency"),
+    "spectra": ("frequency",),
+    "averages-lines": ("name", "along", "solid_fraction", "velocity_z"),
+    "averages-planes": ("name", "along", "across", "solid_fraction"),
+    "averages-midplane": MIDPLANE_COLUMNS,
+}
 # Columns of monitors.csv that not every run has.
 WALL_FORCE = "force_"
 
@@ -81,9 +89,9 @@ WALL_FORCE = "force_"
 class RunOutput:
     """All that the report needs of one run, in SI units.
 
-    Per-case tables are keyed by the case's number, from 1; a table maps the
-    name of a column to its array. A case maps every name of CASE_KEYS, and
-    "number", to a value or None.
+    Per-case tables are keyed by the case's number, from 1, those of averages by their
+    stem first; a table maps the name of a column to its array. A case maps every name of
+    CASE_KEYS, and "number", to a value or None.
     """
 
     directory: Path
@@ -95,6 +103,8 @@ class RunOutput:
     midplane: dict = field(default_factory=dict)
     bed: dict = field(default_factory=dict)
     probes: dict = None
+    snapshots: dict = None
+    averages: dict = field(default_factory=dict)
     notices: list = field(default_factory=list)
 
     def get(self, *path):
@@ -249,8 +259,9 @@ def rows_of_cases_csv(path, notices):
         return []
 
 
-def read_numbered(run, stem, columns, every_case=True):
-    """The tables STEM-NN.csv by case number; names in a notice what is missing."""
+def read_numbered(run, stem, columns, every_case=True, optional=False):
+    """The tables STEM-NN.csv by case number; names in a notice what is missing, unless
+    there need not be any."""
     directory, cases, notices = run.directory, run.cases, run.notices
     tables = {}
     on_disk = set()
@@ -262,6 +273,8 @@ def read_numbered(run, stem, columns, every_case=True):
         table = read_table(path, columns, notices)
         if table is not None:
             tables[int(match.group(1))] = table
+    if optional:
+        return tables
     absent = [f"{stem}-{case['number']:02d}.csv" for case in cases if case["number"] not in on_disk]
     if not on_disk and run.has_flow():
         notices.append(f"{stem}-NN.csv: there is no such file.")
@@ -292,6 +305,11 @@ def read_run(directory):
         if table is not None:
             run.bed[name] = table
     run.midplane = read_numbered(run, "midplane", MIDPLANE_COLUMNS, every_case=False)
+    for stem, columns in AVERAGES_COLUMNS.items():
+        run.averages[stem] = read_numbered(run, stem, columns, optional=True)
+    snapshots = run.directory / "snapshots.csv"
+    if snapshots.is_file():
+        run.snapshots = read_table(snapshots, ("time", "case", "x", "z", "void_fraction"), notices)
     return run
 
 

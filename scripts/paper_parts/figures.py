@@ -5,13 +5,14 @@ from matplotlib.collections import EllipseCollection
 from matplotlib.patches import Rectangle
 
 from common import reference
+from common.fluidisation import fixed_cases, supported_drop
 from common.particles import positions
 from common.style import BLACK, BLUE, GREEN, GREY, ORANGE, PURPLE, VERMILLION
 from common.style import MILLI, PERCENT, column, new_figure, plot_cases, velocity_axis
 from common.style import diamonds, note, shade_papers_band
 from report_parts import figures_inside
 
-from .runs import fixed_cases, over, supported_drop
+from .runs import over
 
 SPHERE = np.array([0.36, 0.55, 0.72])
 # Diameter and offset over that of the sphere, brightness.

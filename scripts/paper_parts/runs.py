@@ -1,54 +1,9 @@
-"""The runs of scripts/reproduce-paper, and numbers that are taken from several cases."""
-
-import math
-from dataclasses import dataclass
-from pathlib import Path
+"""Numbers that compare runs of scripts/reproduce-paper with each other."""
 
 import numpy as np
 
 from common import reference
-from common.run_output import read_run
-from common.study_table import read_study
-
-# Fixed-bed cases: the fluid carries less than this part of the weight. Beyond, the bed
-# has begun to loosen.
-FIXED = 0.86
-# The fluid carries the bed: the bottom has less than this part of its weight in the mean.
-LEFT_ON_BOTTOM = 0.05
-GRAVITY = 9.81
-
-
-class Runs:
-    """Runs by name, read when asked for."""
-
-    def __init__(self, directory):
-        self.directory = Path(directory)
-        self.read = {}
-
-    def has(self, name):
-        """Whether this run has ended."""
-        return (self.directory / name / "summary.json").exists()
-
-    def __getitem__(self, name):
-        if name not in self.read:
-            if not self.has(name):
-                raise FileNotFoundError(
-                    f"{self.directory / name}: not there; scripts/reproduce-paper makes it"
-                )
-            self.read[name] = read_run(self.directory / name)
-        return self.read[name]
-
-    def study(self, name):
-        """The rows of a study.csv, numbers as floats or None."""
-        return read_study(self.directory / name / "study.csv")
-
-
-def case_at(run, velocity):
-    """The case of @p run at this superficial velocity [m/s]."""
-    for case in run.cases:
-        if math.isclose(case["superficial_velocity"], velocity, rel_tol=1e-6):
-            return case
-    raise KeyError(f"{run.directory}: no case at {velocity} m/s")
+from common.fluidisation import fixed_cases, later_rows
 
 
 def drop_at(run, velocity):
@@ -60,20 +15,6 @@ def drop_at(run, velocity):
     return float(np.interp(velocity, v, ratio)) * float(reference.ergun_curve(run, velocity))
 
 
-def fixed_cases(run):
-    """The cases in which the bed rests."""
-    return [case for case in run.cases if case["fluid_force"] < FIXED * case["weight"]]
-
-
-def supported_drop(run):
-    """Pressure drop [Pa] at which the fluid carries the bed: weight less buoyancy over the
-    cross-section."""
-    density = run.number("fluid", "density")
-    solid = run.number("bed", "solid_volume")
-    weight = run.cases[0]["weight"]
-    return reference.weight_per_area(run) * (1.0 - density * GRAVITY * solid / weight)
-
-
 def over(reference_run, run):
     """Pressure drop of the fixed-bed cases of @p run over that of another run at the same
     velocities, less 1 [-]."""
@@ -83,68 +24,8 @@ def over(reference_run, run):
     ]
 
 
-def velocity_of(drop, of_velocity):
-    """The superficial velocity [m/s] at which a rising function reaches @p drop."""
-    low, high = 0.0, 5.0
-    for _ in range(80):
-        middle = 0.5 * (low + high)
-        low, high = (middle, high) if of_velocity(middle) < drop else (low, middle)
-    return 0.5 * (low + high)
-
-
-def onset(run):
-    """Onset of fluidisation as it is measured: where the line of the fixed bed, a V + b V^2
-    through its cases, meets the drop that carries the bed [m/s]."""
-    fixed = fixed_cases(run)
-    v = np.array([case["superficial_velocity"] for case in fixed])
-    drop = np.array([case["pressure_drop"] for case in fixed])
-    a, b = np.linalg.lstsq(np.stack([np.ones_like(v), v], axis=1), drop / v, rcond=None)[0]
-    return velocity_of(supported_drop(run), lambda velocity: a * velocity + b * velocity**2)
-
-
-def ergun_onset(run):
-    """Onset by Ergun's equation for the bed at rest [m/s]."""
-    return velocity_of(
-        supported_drop(run), lambda velocity: reference.ergun_curve(run, velocity)
-    )
-
-
-def later_rows(run, case):
-    """Which rows of the monitors belong to the second half of a case; the last one does."""
-    rows = (run.monitors["case"] == case["number"]) & (run.monitors["phase"] == "flow")
-    time = run.monitors["time"]
-    return rows & (time >= 0.5 * (time[rows][0] + time[rows][-1]))
-
-
 def rise(run, case):
     """How much higher the bed is than at rest, median over the second half of the case [m]:
     at a single moment a slugging bed may have come apart."""
     height = run.monitors["bed_height"][later_rows(run, case)]
     return float(np.median(height)) - run.number("bed", "height")
-
-
-@dataclass
-class Plateau:
-    """A lifted bed, means over the second half of its case, as it rises and falls as slugs.
-    What bottom and wall bear of it, the pressure drop does not."""
-
-    level: float  # pressure drop over the one that carries the bed [-]
-    on_bottom: float  # part of the weight [-]
-    on_wall: float  # part of the weight [-]
-    seconds: float  # simulated time of the means [s]
-
-
-def plateau(run):
-    """The fastest case, if the fluid carries the bed in it; None otherwise. Slower cases just
-    above onset may leave a layer on the bottom."""
-    case = run.cases[-1]
-    rows = later_rows(run, case)
-
-    def part(name):
-        return float(np.mean(run.monitors[name][rows])) / case["weight"]
-
-    if np.count_nonzero(rows) < 2 or part("bottom_force") > LEFT_ON_BOTTOM:
-        return None  # a resting bed has one row
-    level = float(np.mean(run.monitors["pressure_drop"][rows])) / supported_drop(run)
-    seconds = float(np.ptp(run.monitors["time"][rows]))
-    return Plateau(level, part("bottom_force"), part("wall_force"), seconds)

@@ -37,14 +37,14 @@ def ratio_range(fields):
     return Normalize(1.0 - reach, 1.0 + reach)
 
 
-def panels(run, name, colour_map, choose_range, label, divide_by_velocity=False):
+def panels(run, tables, name, colour_map, choose_range, label, divide_by_velocity=False):
     """One image a case of a field on the plane y = 0, on common colours."""
-    if not run.midplane:
+    if not tables:
         raise NothingToShow("no midplane-NN.csv was found")
-    numbers = chosen(run.midplane)
+    numbers = chosen(tables)
     grids = []
     for number in numbers:
-        x, z, values = grid_of(run.midplane[number], name)
+        x, z, values = grid_of(tables[number], name)
         if divide_by_velocity:
             case = run.case(number)
             if case is None or not case["superficial_velocity"]:
@@ -95,7 +95,9 @@ def draw_field(axes, x, z, values, colour_map, norm):
 @of_cases
 def void_fraction(run, paper):
     """Void fraction on the plane y = 0."""
-    return panels(run, "void_fraction", "viridis", void_fraction_range, "void fraction [-]")
+    return panels(
+        run, run.midplane, "void_fraction", "viridis", void_fraction_range, "void fraction [-]"
+    )
 
 
 @of_cases
@@ -103,6 +105,7 @@ def flux(run, paper):
     """Axial volumetric flux on the plane y = 0, over the superficial velocity."""
     return panels(
         run,
+        run.midplane,
         "superficial_velocity",
         "RdBu_r",
         ratio_range,

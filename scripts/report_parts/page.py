@@ -84,6 +84,18 @@ def captions(run, paper):
         "radial": "<b>From the wall inwards.</b> Averages over the middle half of the bed's height"
         " and around the axis: void fraction (left) and axial volumetric flux over the superficial"
         " velocity (right).",
+        "bubbles": "<b>Bubbles.</b> Void fraction on the plane y = 0 at some moments of the last"
+        " case, and the pressure drop, dotted where they are.",
+        "averages-lines": "<b>Means along lines,</b> over the window of the averages, of the last"
+        " case. Solid fraction from spheres cut by the bins, and from the void fraction on the"
+        " mesh; bands are the rms about the mean, over time for the solid fraction and over time"
+        " and particles for the velocity.",
+        "averages-planes": "<b>Means over planes,</b> of the last case: solid fraction, and arrows"
+        " along which the solid moves.",
+        "averages-midplane": "<b>Mean void fraction on the plane y = 0,</b> over the window of the"
+        " averages, lengths to scale.",
+        "spectra": "<b>Spectra over the window of the averages,</b> of the last case: power by"
+        " frequency, over the whole power of each quantity (Welch's method).",
         "bed-radial": "<b>Void fraction of the settled bed from the wall inwards.</b> Spheres cut"
         " exactly, over the middle half of the bed's height; dashed: de Klerk's correlation (2003)"
         " with the bulk void fraction of this bed.",
@@ -144,6 +156,10 @@ SECTIONS = (
     ("Deviation from Ergun", ("deviation",)),
     ("Forces and lift", ("bottom-force", "bed-height")),
     ("Inside the bed", ("void-fraction", "flux", "radial")),
+    (
+        "The moving bed",
+        ("bubbles", "averages-lines", "averages-planes", "averages-midplane", "spectra"),
+    ),
     ("The settled bed", ("bed-radial", "bed-janssen")),
     ("Over time", ("monitors", "wall-forces", "particle-number", "probes")),
     ("Cost", ("cost",)),
@@ -211,6 +227,8 @@ def page(run, paper, figures):
         if all(figures[name] is None for name in names):
             continue
         body.append(f"<h2>{heading}</h2>")
+        if heading == "The moving bed":
+            body.append(tables.means_over_time(run))
         body += figures_of(names, figures, caption, count)
         if heading == "Deviation from Ergun":
             body.append(f"<p>{escape(words.what_is_left(run))}</p>")

@@ -176,3 +176,47 @@ def deviation_in_parts(run):
             ]
         )
     return table([], heads, rows)
+
+
+# Quantities of the table of means, beside all probes, with a factor and a unit.
+AVERAGED = {
+    "pressure_drop": (1.0, "Pa"),
+    "expanded_height": (1e3, "mm"),
+    "center_of_mass": (1e3, "mm"),
+    "bed_height": (1e3, "mm"),
+    "support_force": (1.0, "N"),
+    "fluid_force": (1.0, "N"),
+}
+
+
+def means_over_time(run):
+    """Table of means, rms, statistical errors and frequencies over the window."""
+    rows = []
+    for number, means in sorted(run.averages.get("averages", {}).items()):
+        for k, quantity in enumerate(means["quantity"]):
+            is_probe = any(str(quantity) == name for name in run.probes or {})
+            if quantity not in AVERAGED and not is_probe:
+                continue
+            factor, unit = AVERAGED.get(quantity, (1.0, means["unit"][k]))
+            cells = [
+                words.number(value if np.isfinite(value) else None, ".4g", scale)
+                for value, scale in (
+                    (means["mean"][k], factor),
+                    (means["error"][k], factor),
+                    (means["rms"][k], factor),
+                    (means["frequency"][k], 1.0),
+                )
+            ]
+            rows.append([number, quantity.replace("_", " "), unit, *cells])
+    if not rows:
+        return ""
+    heads = [
+        ("case", ""),
+        ("quantity", ""),
+        ("unit", ""),
+        ("mean", ""),
+        ("its error", "by blocks"),
+        ("rms", "about the mean"),
+        ("frequency", "Hz"),
+    ]
+    return table([], heads, rows)

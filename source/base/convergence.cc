@@ -39,6 +39,21 @@ namespace graupel
         value += lagrange_weight(computations, first, k, to) * computations[k].value;
       return value;
     }
+
+    void
+    check_numbers(const std::vector<Computation> &computations,
+                  const std::vector<double>      &standard_errors)
+    {
+      if (computations.size() < 2 || computations.size() != standard_errors.size())
+        throw std::invalid_argument("An extrapolation needs two computations or more, "
+                                    "each with its error.");
+    }
+
+    double
+    weight_of_distance(const Computation &computation, const double to)
+    {
+      return 1. / std::pow(computation.size - to, 2);
+    }
   } // namespace
 
   GridConvergence
@@ -83,9 +98,7 @@ namespace graupel
               const std::vector<double>      &standard_errors,
               const double                    to)
   {
-    if (computations.size() < 2 || computations.size() != standard_errors.size())
-      throw std::invalid_argument("An extrapolation needs two computations or more, each "
-                                  "with its error.");
+    check_numbers(computations, standard_errors);
     for (std::size_t k = 1; k < computations.size(); ++k)
       if (computations[k].size == computations[k - 1].size)
         throw std::invalid_argument("Two computations have the same size.");
@@ -99,6 +112,38 @@ namespace graupel
         square += part * part;
       }
     return {value, std::sqrt(square)};
+  }
+
+  Estimate
+  mean_at(const std::vector<Computation> &computations,
+          const std::vector<double>      &standard_errors,
+          const double                    to)
+  {
+    check_numbers(computations, standard_errors);
+    double sum = 0., values = 0.;
+    for (const Computation &one : computations)
+      {
+        if (one.size == to)
+          throw std::invalid_argument("A computation has the size that is asked for.");
+        sum += weight_of_distance(one, to);
+        values += weight_of_distance(one, to) * one.value;
+      }
+    const double mean    = values / sum;
+    double       scatter = 0., squares = 0.;
+    for (std::size_t k = 0; k < computations.size(); ++k)
+      {
+        const double weight = weight_of_distance(computations[k], to) / sum;
+        scatter += weight * std::pow(computations[k].value - mean, 2);
+        squares += std::pow(weight * standard_errors[k], 2);
+      }
+    return {mean, std::sqrt(scatter / (computations.size() - 1.) + squares)};
+  }
+
+  Estimate
+  product(const Estimate &one, const Estimate &other)
+  {
+    return {one.value * other.value,
+            std::hypot(one.error * other.value, other.error * one.value)};
   }
 
   std::optional<double>

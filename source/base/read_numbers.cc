@@ -3,6 +3,7 @@
 
 #include <charconv>
 #include <cmath>
+#include <iomanip>
 #include <sstream>
 
 namespace graupel
@@ -46,5 +47,13 @@ namespace graupel
     for (std::string word; words >> word;)
       numbers.push_back(read_number(parameter, word));
     return numbers;
+  }
+
+  std::string
+  text_of(const double value, const int digits)
+  {
+    std::ostringstream text;
+    text << std::setprecision(digits) << value;
+    return text.str();
   }
 } // namespace graupel

@@ -128,12 +128,6 @@ namespace graupel
   }
 
   double
-  benyahia_oneill_void_fraction(const double diameter_ratio)
-  {
-    return 0.390 + 1.740 / ((diameter_ratio + 1.140) * (diameter_ratio + 1.140));
-  }
-
-  double
   janssen_stress(const double specific_weight,
                  const double diameter,
                  const double wall_friction,

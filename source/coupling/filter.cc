@@ -1,4 +1,5 @@
 #include <graupel/coupling/filter.h>
+#include <graupel/mesh/cell_order.h>
 
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/fe/fe_values.h>
@@ -47,19 +48,18 @@ namespace graupel
     const unsigned int                           n = nodes.fe.n_dofs_per_cell();
     dealii::FullMatrix<double>                   local(n, n);
     std::vector<dealii::types::global_dof_index> indices(n);
-    for (const auto &cell : nodes.dof_handler.active_cell_iterators())
-      if (cell->is_locally_owned())
-        {
-          values.reinit(cell);
-          local = 0.;
-          for (const unsigned int q : values.quadrature_point_indices())
-            for (unsigned int a = 0; a < n; ++a)
-              for (unsigned int b = 0; b < n; ++b)
-                local(a, b) +=
-                  values.shape_grad(a, q) * values.shape_grad(b, q) * values.JxW(q);
-          cell->get_dof_indices(indices);
-          nodes.hanging_nodes.distribute_local_to_global(local, indices, stiffness);
-        }
+    for (const auto &cell : owned_cells(nodes.dof_handler))
+      {
+        values.reinit(cell);
+        local = 0.;
+        for (const unsigned int q : values.quadrature_point_indices())
+          for (unsigned int a = 0; a < n; ++a)
+            for (unsigned int b = 0; b < n; ++b)
+              local(a, b) +=
+                values.shape_grad(a, q) * values.shape_grad(b, q) * values.JxW(q);
+        cell->get_dof_indices(indices);
+        nodes.hanging_nodes.distribute_local_to_global(local, indices, stiffness);
+      }
     stiffness.compress(dealii::VectorOperation::add);
 
     // Gershgorin's bound on the eigenvalues of M^-1 K.

@@ -451,16 +451,21 @@ namespace graupel
   Dem::original_sauter_diameter() const
   {
     const auto types = input.types();
-    double     solid = 0., over_diameter = 0.;
+    // Exact sums, as the division among ranks must not show, with the same quantum: of
+    // equal spheres the mean is exactly their diameter.
+    double smallest = std::numeric_limits<double>::max();
+    for (const auto &type : types)
+      smallest = std::min(smallest, 2. * type.smallest_radius() / type.scale);
+    ExactSum solid(sphere_volume(input.largest_radius())), in_smallest(solid);
     for (unsigned int i = 0; i < arrays.n_owned; ++i)
       {
         const double radius = arrays.body[i].radius, volume = sphere_volume(radius);
-        solid += volume;
-        over_diameter += volume * types[arrays.type[i]].scale / (2. * radius);
+        const double original = 2. * radius / types[arrays.type[i]].scale;
+        solid.add(volume);
+        in_smallest.add(volume * std::min(1., smallest / original));
       }
-    over_diameter = mpi::sum(over_diameter, communicator());
-    return over_diameter > 0. ? mpi::sum(solid, communicator()) / over_diameter
-                              : input.mean_original_diameter();
+    const auto sums = ExactSum::totals({solid, in_smallest}, communicator());
+    return sums[1] > 0. ? smallest * (sums[0] / sums[1]) : input.mean_original_diameter();
   }
 
   double

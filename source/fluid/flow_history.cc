@@ -1,35 +1,9 @@
 #include <graupel/fluid/flow_solver.h>
 
-#include <deal.II/distributed/solution_transfer.h>
+#include <cstring>
 
 namespace graupel
 {
-  namespace
-  {
-    using Forest   = dealii::parallel::distributed::Triangulation<3>;
-    using Transfer = dealii::parallel::distributed::SolutionTransfer<3, NodalVector>;
-
-    // Data is attached to a mesh that does not change by it.
-    Forest &
-    forest_of(const NodalSpace &nodes)
-    {
-      return const_cast<Forest &>(nodes.mesh.triangulation());
-    }
-
-    // The place of a cell among the owned ones, by its active index.
-    std::vector<unsigned int>
-    owned_numbers(const NodalSpace &nodes)
-    {
-      const auto               &forest = nodes.mesh.triangulation();
-      std::vector<unsigned int> result(forest.n_active_cells());
-      unsigned int              number = 0;
-      for (const auto &cell : forest.active_cell_iterators())
-        if (cell->is_locally_owned())
-          result[cell->active_cell_index()] = number++;
-      return result;
-    }
-  } // namespace
-
   std::shared_ptr<const FlowSolver::Recipe>
   FlowSolver::share(const Recipe &recipe)
   {
@@ -64,63 +38,38 @@ namespace graupel
     return result;
   }
 
-  void
-  FlowSolver::save(const std::string &file) const
+  template <typename Solver, typename RecipeType>
+  auto
+  FlowSolver::fields_of_history(Solver &solver, RecipeType &recipe)
   {
-    std::vector<const NodalVector *> fields{&relative_pressure, &alpha_old, &alpha_older};
-    const auto                       made_of = recipe ? recipe : share(assembled);
-    for (const NodalVectorField *field :
-         {&flux_now, &flux_old, &made_of->carrier, &made_of->solids})
-      for (const NodalVector &component : *field)
+    std::vector<decltype(&solver.alpha_old)> fields{&solver.relative_pressure,
+                                                    &solver.alpha_old,
+                                                    &solver.alpha_older,
+                                                    &recipe.void_fraction,
+                                                    &recipe.drag};
+    for (auto *field :
+         {&solver.flux_now, &solver.flux_old, &recipe.carrier, &recipe.solids})
+      for (auto &component : *field)
         fields.push_back(&component);
-    fields.push_back(&made_of->void_fraction);
-    fields.push_back(&made_of->drag);
-    Transfer transfer(nodes.dof_handler);
-    transfer.prepare_for_serialization(fields);
+    return fields;
+  }
 
-    const auto numbers = owned_numbers(nodes);
-    forest_of(nodes).register_data_attach(
-      [&](const Forest::cell_iterator &cell, const Forest::CellStatus) {
-        return pack_unresolved(
-          numbers[Forest::active_cell_iterator(cell)->active_cell_index()]);
-      },
-      false);
-    nodes.mesh.save(file);
+  VesselMesh::CellBytes
+  FlowSolver::cell_bytes() const
+  {
+    const auto            made_of = recipe ? recipe : share(assembled);
+    VesselMesh::CellBytes result;
+    nodes.append(result, fields_of_history(*this, *made_of));
+    append_unresolved(result);
+    return result;
   }
 
   void
-  FlowSolver::restore(const FlowHistory &history)
+  FlowSolver::restore(const FlowHistory &history, VesselMesh::CellBytes bytes)
   {
-    Recipe                     made_of = assembled;
-    std::vector<NodalVector *> fields{&relative_pressure, &alpha_old, &alpha_older};
-    for (NodalVectorField *field :
-         {&flux_now, &flux_old, &made_of.carrier, &made_of.solids})
-      for (NodalVector &component : *field)
-        fields.push_back(&component);
-    fields.push_back(&made_of.void_fraction);
-    fields.push_back(&made_of.drag);
-    for (NodalVector *field : fields)
-      nodes.initialize(*field);
-    Transfer transfer(nodes.dof_handler);
-    transfer.deserialize(fields);
-    for (NodalVector *field : fields)
-      field->update_ghost_values();
-
-    const auto         numbers = owned_numbers(nodes);
-    const unsigned int handle  = forest_of(nodes).register_data_attach(
-      [](const Forest::cell_iterator &, const Forest::CellStatus) {
-        return std::vector<char>();
-      },
-      false);
-    forest_of(nodes).notify_ready_to_unpack(
-      handle,
-      [&](const Forest::cell_iterator &cell,
-          const Forest::CellStatus,
-          const boost::iterator_range<std::vector<char>::const_iterator> &data) {
-        unpack_unresolved(
-          numbers[Forest::active_cell_iterator(cell)->active_cell_index()],
-          &*data.begin());
-      });
+    Recipe made_of = assembled;
+    take_unresolved(bytes);
+    nodes.take(bytes, fields_of_history(*this, made_of));
 
     now              = history.time;
     last_step        = history.last_step;
@@ -146,24 +95,31 @@ namespace graupel
     restore_solution();
   }
 
-  std::vector<char>
-  FlowSolver::pack_unresolved(const unsigned int cell) const
+  void
+  FlowSolver::append_unresolved(VesselMesh::CellBytes &bytes) const
   {
-    const std::size_t  size  = space.points_per_cell * sizeof(dealii::Tensor<1, 3>);
-    const unsigned int first = cell * space.points_per_cell;
-    std::vector<char>  bytes(2 * size);
-    std::memcpy(bytes.data(), &unresolved_now[first], size);
-    std::memcpy(bytes.data() + size, &unresolved_old[first], size);
-    return bytes;
+    const std::size_t size = space.points_per_cell * sizeof(dealii::Tensor<1, 3>);
+    for (std::size_t cell = 0; cell < bytes.size(); ++cell)
+      for (const auto *values : {&unresolved_now, &unresolved_old})
+        {
+          const auto *begin =
+            reinterpret_cast<const char *>(&(*values)[cell * space.points_per_cell]);
+          bytes[cell].insert(bytes[cell].end(), begin, begin + size);
+        }
   }
 
   void
-  FlowSolver::unpack_unresolved(const unsigned int cell, const char *const bytes)
+  FlowSolver::take_unresolved(VesselMesh::CellBytes &bytes)
   {
-    const std::size_t  size  = space.points_per_cell * sizeof(dealii::Tensor<1, 3>);
-    const unsigned int first = cell * space.points_per_cell;
-    std::memcpy(&unresolved_now[first], bytes, size);
-    std::memcpy(&unresolved_old[first], bytes + size, size);
+    const std::size_t size = space.points_per_cell * sizeof(dealii::Tensor<1, 3>);
+    for (std::size_t cell = 0; cell < bytes.size(); ++cell)
+      for (auto *values : {&unresolved_old, &unresolved_now})
+        {
+          const std::size_t rest = bytes[cell].size() - size;
+          std::memcpy(
+            &(*values)[cell * space.points_per_cell], bytes[cell].data() + rest, size);
+          bytes[cell].resize(rest);
+        }
   }
 
   void

@@ -1,4 +1,5 @@
 #include <graupel/fluid/flow_space.h>
+#include <graupel/mesh/cell_order.h>
 
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/dofs/dof_renumbering.h>
@@ -26,6 +27,7 @@ namespace graupel
   {
     dof_handler.distribute_dofs(fe);
     const std::vector<unsigned int> blocks{0, 0, 0, 1};
+    dealii::DoFRenumbering::hierarchical(dof_handler);
     dealii::DoFRenumbering::component_wise(dof_handler, blocks);
     const auto sizes = dealii::DoFTools::count_dofs_per_fe_block(dof_handler, blocks);
     dealii::IndexSet all;
@@ -50,41 +52,40 @@ namespace graupel
     const auto         &partitioner = *nodes.measure().get_partitioner();
     std::vector<dealii::types::global_dof_index> scalar(nodes_per_cell);
     std::vector<dealii::types::global_dof_index> unknowns(fe.n_dofs_per_cell());
-    for (const auto &cell : nodes.dof_handler.active_cell_iterators())
-      if (cell->is_locally_owned())
-        {
-          values.reinit(cell);
-          cell->get_dof_indices(scalar);
-          const typename dealii::DoFHandler<3>::active_cell_iterator flow_cell(
-            &dof_handler.get_triangulation(), cell->level(), cell->index(), &dof_handler);
-          flow_cell->get_dof_indices(unknowns);
-          LocalNodes local;
-          for (unsigned int a = 0; a < nodes_per_cell; ++a)
-            {
-              local[a] = partitioner.global_to_local(scalar[a]);
-              for (unsigned int c = 0; c < 3; ++c)
-                AssertThrow(unknowns[unknowns_per_node * a + c] == 3 * scalar[a] + c,
-                            dealii::ExcMessage("Unexpected numbering of the flux."));
-            }
-          cell_nodes.push_back(local);
-          cell_unknowns.push_back(unknowns);
+    for (const auto &cell : owned_cells(nodes.dof_handler))
+      {
+        values.reinit(cell);
+        cell->get_dof_indices(scalar);
+        const typename dealii::DoFHandler<3>::active_cell_iterator flow_cell(
+          &dof_handler.get_triangulation(), cell->level(), cell->index(), &dof_handler);
+        flow_cell->get_dof_indices(unknowns);
+        LocalNodes local;
+        for (unsigned int a = 0; a < nodes_per_cell; ++a)
+          {
+            local[a] = partitioner.global_to_local(scalar[a]);
+            for (unsigned int c = 0; c < 3; ++c)
+              AssertThrow(unknowns[unknowns_per_node * a + c] == 3 * scalar[a] + c,
+                          dealii::ExcMessage("Unexpected numbering of the flux."));
+          }
+        cell_nodes.push_back(local);
+        cell_unknowns.push_back(unknowns);
 
-          double volume = 0.;
-          for (const unsigned int q : values.quadrature_point_indices())
-            {
-              ShapePoint point;
-              point.weight = values.JxW(q);
-              volume += point.weight;
-              for (unsigned int a = 0; a < nodes_per_cell; ++a)
-                {
-                  point.value[a]    = values.shape_value(a, q);
-                  point.gradient[a] = values.shape_grad(a, q);
-                }
-              shapes.push_back(point);
-            }
-          cell_sizes.push_back(std::cbrt(volume));
-          cell_centers.push_back(cell->center());
-        }
+        double volume = 0.;
+        for (const unsigned int q : values.quadrature_point_indices())
+          {
+            ShapePoint point;
+            point.weight = values.JxW(q);
+            volume += point.weight;
+            for (unsigned int a = 0; a < nodes_per_cell; ++a)
+              {
+                point.value[a]    = values.shape_value(a, q);
+                point.gradient[a] = values.shape_grad(a, q);
+              }
+            shapes.push_back(point);
+          }
+        cell_sizes.push_back(std::cbrt(volume));
+        cell_centers.push_back(cell->center());
+      }
   }
 
   void
@@ -97,30 +98,29 @@ namespace graupel
       dealii::update_values | dealii::update_gradients | dealii::update_JxW_values |
         dealii::update_normal_vectors | dealii::update_quadrature_points);
     unsigned int number = 0;
-    for (const auto &cell : nodes.dof_handler.active_cell_iterators())
-      if (cell->is_locally_owned())
-        {
-          for (const unsigned int f : cell->face_indices())
-            if (cell->face(f)->at_boundary())
-              {
-                values.reinit(cell, f);
-                for (const unsigned int q : values.quadrature_point_indices())
-                  {
-                    FacePoint point;
-                    point.position = values.quadrature_point(q);
-                    point.normal   = values.normal_vector(q);
-                    point.cell     = number;
-                    point.weight   = values.JxW(q);
-                    for (unsigned int a = 0; a < nodes_per_cell; ++a)
-                      {
-                        point.value[a]    = values.shape_value(a, q);
-                        point.gradient[a] = values.shape_grad(a, q);
-                      }
-                    faces[cell->face(f)->boundary_id()].push_back(point);
-                  }
-              }
-          ++number;
-        }
+    for (const auto &cell : owned_cells(nodes.dof_handler))
+      {
+        for (const unsigned int f : cell->face_indices())
+          if (cell->face(f)->at_boundary())
+            {
+              values.reinit(cell, f);
+              for (const unsigned int q : values.quadrature_point_indices())
+                {
+                  FacePoint point;
+                  point.position = values.quadrature_point(q);
+                  point.normal   = values.normal_vector(q);
+                  point.cell     = number;
+                  point.weight   = values.JxW(q);
+                  for (unsigned int a = 0; a < nodes_per_cell; ++a)
+                    {
+                      point.value[a]    = values.shape_value(a, q);
+                      point.gradient[a] = values.shape_grad(a, q);
+                    }
+                  faces[cell->face(f)->boundary_id()].push_back(point);
+                }
+            }
+        ++number;
+      }
   }
 
   const std::vector<FlowSpace::FacePoint> &

@@ -1,4 +1,5 @@
 #include <graupel/base/parameters.h>
+#include <graupel/mesh/cell_order.h>
 #include <graupel/mesh/gmsh_file.h>
 #include <graupel/mesh/vessel_mesh.h>
 
@@ -9,10 +10,13 @@
 #include <deal.II/grid/tria_accessor.h>
 #include <deal.II/grid/tria_iterator.h>
 
+#include <numeric>
 #include <sstream>
 
 namespace graupel
 {
+  using Forest = dealii::parallel::distributed::Triangulation<3>;
+
   namespace
   {
     constexpr dealii::types::manifold_id curved = 0;
@@ -265,14 +269,77 @@ namespace graupel
     connection.disconnect();
   }
 
-  void
-  VesselMesh::save(const std::string &file) const
+  unsigned int
+  VesselMesh::attach(const CellBytes &bytes)
   {
-    forest.save(file);
+    std::map<dealii::CellId, unsigned int> number;
+    for (const auto &cell : owned_cells(forest))
+      number.emplace(cell->id(), number.size());
+    return forest.register_data_attach(
+      [&bytes, number](const Forest::cell_iterator &cell, const CellStatus) {
+        return bytes[number.at(cell->id())];
+      },
+      false);
+  }
+
+  VesselMesh::CellBytes
+  VesselMesh::detach(const unsigned int handle)
+  {
+    std::map<dealii::CellId, std::vector<char>> bytes;
+    forest.notify_ready_to_unpack(
+      handle,
+      [&](const Forest::cell_iterator &cell,
+          const CellStatus,
+          const boost::iterator_range<std::vector<char>::const_iterator> &data) {
+        bytes[cell->id()].assign(data.begin(), data.end());
+      });
+    CellBytes result;
+    for (auto &[id, of_cell] : bytes)
+      result.push_back(std::move(of_cell));
+    return result;
   }
 
   void
-  VesselMesh::load(const std::string &file)
+  VesselMesh::save(const std::string &file, const CellBytes &bytes) const
+  {
+    // The mesh does not change by what is attached to it for the time of the call.
+    const_cast<VesselMesh *>(this)->attach(bytes);
+    forest.save(file);
+  }
+
+  std::vector<unsigned int>
+  VesselMesh::partition() const
+  {
+    return dealii::Utilities::MPI::all_gather(communicator(),
+                                              forest.n_locally_owned_active_cells());
+  }
+
+  VesselMesh::CellBytes
+  VesselMesh::divide_as(const std::vector<unsigned int> &partition,
+                        const CellBytes                 &bytes)
+  {
+    // p4est cuts where the sum of all weights so far reaches the next whole number: at
+    // the last cell of each rank. It asks for them in its own order of the cells.
+    std::map<unsigned int, unsigned int> ranks_ending_at;
+    unsigned int                         end = 0;
+    for (const unsigned int n : partition)
+      ++ranks_ending_at[end += n];
+    const auto   now  = this->partition();
+    const auto   mine = dealii::Utilities::MPI::this_mpi_process(communicator());
+    unsigned int past = std::accumulate(now.begin(), now.begin() + mine, 0u);
+    const auto   connection =
+      forest.signals.weight.connect([&](const auto &, const auto) -> unsigned int {
+        const auto found = ranks_ending_at.find(++past);
+        return found == ranks_ending_at.end() ? 0 : found->second;
+      });
+    const unsigned int handle = attach(bytes);
+    forest.repartition();
+    connection.disconnect();
+    return detach(handle);
+  }
+
+  VesselMesh::CellBytes
+  VesselMesh::load(const std::string &file, const std::vector<unsigned int> &partition)
   {
     // p4est reads onto the coarse cells only.
     while (forest.n_global_levels() > 1)
@@ -283,6 +350,11 @@ namespace graupel
         forest.execute_coarsening_and_refinement();
       }
     forest.load(file);
+    const CellBytes bytes = detach(attach({}));
+    const auto      now   = this->partition();
+    return partition.size() == now.size() && partition != now
+             ? divide_as(partition, bytes)
+             : bytes;
   }
 
   double

@@ -43,8 +43,11 @@ namespace graupel
                          MPI_Comm             communicator)
     : state(parameters, summary.costs, progress, communicator)
     , files(files)
-    , series{Feeds(parameters.feeds, state.dem), {}, 0., false}
-    , probes(read_probes(parameters.output.probes))
+    , series{Feeds(parameters.feeds, state.dem),
+             Probes(read_probes(parameters.output.probes)),
+             {},
+             0.,
+             false}
     , next_output(parameters.output.interval)
     , started(Progress::steady_seconds())
   {
@@ -148,8 +151,11 @@ namespace graupel
       row.values = Values(monitors(), phase.moment());
       files.add_monitor(row);
       files.add_wall_forces(wall_forces_header(state), wall_forces_row(state));
-      if (state.fluid && probes.are_wanted())
-        files.add_probes(probes.header(), probes.row(state));
+      if (state.fluid && series.probes.are_wanted())
+        {
+          series.probes.look(state);
+          files.add_probes(series.probes.header(), series.probes.row(state.time));
+        }
     }
     phase.note(row);
     if (is_flow)
@@ -177,9 +183,18 @@ namespace graupel
         rest.mean_void_fraction = bed.mean_void_fraction;
       }
     state.progress.say(describe_bed(rest, state.dem));
+    std::optional<OriginalPacking> packing;
+    if (const auto scale = state.parameters.common_scale())
+      packing = packing_of_smaller(state.dem, bed, rest.particle_diameter, *scale);
+    if (packing)
+      rest.original_void_fraction = packing->mean_void_fraction;
     if (state.parameters.sweep.has_fluid())
-      rest.original_solid_ratio = original_solid_ratio(
-        state.parameters, bed, state.progress, summary.costs, state.communicator);
+      rest.original_solid_ratio = original_solid_ratio(state.parameters,
+                                                       bed,
+                                                       packing,
+                                                       state.progress,
+                                                       summary.costs,
+                                                       state.communicator);
     const CostSheet::Scope timing(summary.costs, CostSheet::output);
     const DemState         particles = state.dem.state();
     if (mpi::this_mpi_process(state.communicator) == 0)
@@ -200,6 +215,8 @@ namespace graupel
     const CostSheet::Scope timing(summary.costs, CostSheet::output);
     if (state.fluid)
       files.add_fields(state.time, *state.fluid);
+    if (state.fluid && state.averages.averaged_time() > 0.)
+      files.add_averages(state.time, state.fluid->nodes(), state.averages);
     files.add_particles(state.time, state.dem);
     next_output = state.time + state.parameters.output.interval;
   }

@@ -67,8 +67,10 @@ namespace graupel
     saved.has_fluid           = state.fluid.has_value();
     if (state.fluid)
       {
-        saved.fluid       = state.fluid->fluid().history();
-        saved.stable_step = state.fluid->stable_step();
+        saved.fluid         = state.fluid->fluid().history();
+        saved.stable_step   = state.fluid->stable_step();
+        saved.averaged_time = state.averages.averaged_time();
+        saved.partition     = state.mesh.partition();
       }
     saved.phase_number = phase_number;
     if (phase_now != nullptr)
@@ -87,8 +89,11 @@ namespace graupel
       run_state(),
       state.dem.state(),
       [&](const std::string &file) {
-        if (state.fluid)
-          state.fluid->save(file);
+        if (!state.fluid)
+          return;
+        auto bytes = state.fluid->fluid().cell_bytes();
+        state.averages.append(state.fluid->nodes(), bytes);
+        state.mesh.save(file, bytes);
       },
       state.communicator);
     next_save =
@@ -110,8 +115,10 @@ namespace graupel
   void
   Simulation::go_on_from(const RunState &saved)
   {
+    VesselMesh::CellBytes bytes;
     if (saved.has_fluid)
-      state.mesh.load(checkpoint_fields(files.path("checkpoint")));
+      bytes =
+        state.mesh.load(checkpoint_fields(files.path("checkpoint")), saved.partition);
     state.dem.restore(checkpoint->second);
 
     state.time           = saved.time;
@@ -138,7 +145,8 @@ namespace graupel
     if (saved.has_fluid)
       {
         state.make_fluid();
-        state.fluid->load(saved.fluid, saved.stable_step);
+        state.averages.load(state.fluid->nodes(), saved.averaged_time, bytes);
+        state.fluid->load(saved.fluid, bytes, saved.stable_step);
       }
     std::ostringstream text;
     text << "resumed at " << state.time << " s, " << state.dem.n_global()

@@ -69,3 +69,30 @@ TEST(Extrapolation, IsExactForAParabolaAndTellsItsErrors)
   EXPECT_THROW(extrapolate({{1., 1.}}, {0.}, 1.), std::invalid_argument);
   EXPECT_THROW(extrapolate({{1., 1.}, {1., 2.}}, {0., 0.}, 1.), std::invalid_argument);
 }
+
+// Weights 1/9, 1/4, 1 over their sum; by hand.
+TEST(MeanAt, CountsWhatIsNearestMost)
+{
+  const std::vector<Computation> computations{{4., 10.}, {3., 8.}, {2., 9.}};
+  const double                   sum  = 1. / 9. + 1. / 4. + 1.;
+  const double                   mean = (10. / 9. + 8. / 4. + 9.) / sum;
+  const auto                     same = mean_at(computations, {0., 0., 0.}, 1.);
+  EXPECT_NEAR(same.value, mean, 1e-12);
+  const double scatter = (std::pow(10. - mean, 2) / 9. + std::pow(8. - mean, 2) / 4. +
+                          std::pow(9. - mean, 2)) /
+                         sum / 2.;
+  EXPECT_NEAR(same.error, std::sqrt(scatter), 1e-12);
+  const auto noisy = mean_at(computations, {0., 0., 0.3}, 1.);
+  EXPECT_NEAR(noisy.error, std::sqrt(scatter + std::pow(0.3 / sum, 2)), 1e-12);
+  // Where all tell the same there is no scatter.
+  EXPECT_NEAR(mean_at({{4., 5.}, {2., 5.}}, {0., 0.}, 1.).error, 0., 1e-12);
+  EXPECT_THROW(mean_at({{2., 1.}}, {0.}, 1.), std::invalid_argument);
+  EXPECT_THROW(mean_at({{2., 1.}, {1., 1.}}, {0., 0.}, 1.), std::invalid_argument);
+}
+
+TEST(Estimates, RelativeErrorsOfAProductAddInQuadrature)
+{
+  const auto both = product({4., 0.12}, {-5., 0.2});
+  EXPECT_DOUBLE_EQ(both.value, -20.);
+  EXPECT_NEAR(both.error, 20. * std::hypot(0.03, 0.04), 1e-12);
+}

@@ -55,3 +55,10 @@ TEST(ReadNumbers, WithBlanksBetween)
   EXPECT_THROW(read_numbers("Walls/planes", "0 0 1e-2x"), InputError);
   EXPECT_THROW(read_numbers("Walls/planes", "0 nan 1"), InputError);
 }
+
+TEST(TextOf, ReadsBackToTheSameNumber)
+{
+  EXPECT_EQ(text_of(1. / 3.), "0.333333");
+  for (const double value : {1. / 3., 6.4e-3, -2e300})
+    EXPECT_EQ(number_in(text_of(value, 17)), value);
+}

@@ -186,14 +186,6 @@ TEST(BedCorrelations, DeKlerkIsWhollyEmptyAtTheWallAndFlatFarFromIt)
   EXPECT_LT(de_klerk_void_fraction(1.5, 0.36), 0.33);
 }
 
-TEST(BedCorrelations, BenyahiaAndONeillBetweenNarrowAndWide)
-{
-  // By hand: 0.39 + 1.74 / 51.14^2.
-  EXPECT_NEAR(benyahia_oneill_void_fraction(50.), 0.3906653157443224, 1e-15);
-  EXPECT_NEAR(benyahia_oneill_void_fraction(1e9), 0.390, 1e-12);
-  EXPECT_NEAR(benyahia_oneill_void_fraction(7.8125), 0.390 + 1.740 / 80.1495, 1e-6);
-}
-
 TEST(BedCorrelations, JanssenSaturates)
 {
   // Hydrostatic without friction and near the top, w D / (4 mu K) deep down; the

@@ -78,7 +78,8 @@ namespace
       flow.step(exchange.medium(), dt);
       dem.particles().external_force =
         exchange.forces(dem.particles(), flow, water.density, gravity);
-      EXPECT_LE(exchange.momentum_imbalance(), 1e-10);
+      // From rest next to nothing is exchanged, beside which round-off is large.
+      EXPECT_LE(exchange.momentum_imbalance(), flow.time() > 1.5 * dt ? 1e-11 : 1e-9);
       dem.advance(dt);
     }
 

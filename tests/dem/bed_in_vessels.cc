@@ -159,10 +159,32 @@ namespace
     expect_no_bed(bed_in(Vessel(tube)));
   }
 
+  // A bubble as wide as the vessel does not end the bed, wherever it is: its top is that of
+  // what lies above, with 5 % of the solid and more. Less than that above it is spray.
+  // Limit: with a bubble in it the middle half is less dense, by which the top is found.
+  TEST_F(Layers, ABubbleDoesNotEndTheBed)
+  {
+    for (const unsigned int below : {4, 18, 20, 22, 36})
+      {
+        particles = ParticleArrays();
+        n_added   = 0;
+        add_layers(below, 0.);
+        add_layers(40 - below, (below + 5.) * d);
+        const auto bed = bed_in(Vessel(tube));
+        EXPECT_TRUE(bed.exists);
+        EXPECT_EQ(bed.bottom, 0.);
+        EXPECT_NEAR(bed.top, 45. * d, 0.1 * d) << below << " layers below the bubble";
+      }
+    particles = ParticleArrays();
+    n_added   = 0;
+    add_layers(39, 0.);
+    add_layers(1, 44. * d);
+    EXPECT_NEAR(bed_in(Vessel(tube)).top, 39. * d, 0.1 * d);
+  }
+
   // A bed of 40 layers comes apart: the upper ones rise by 20 diameters. Law: the
   // expanded height never changes by more than twice the way of the slug, and in the end
-  // by twice its part of the solid, times its way. The height between bottom and top
-  // jumps, which shows that there is something to be smooth about.
+  // by twice its part of the solid, times its way.
   TEST_F(Layers, SlugsMakeTheExpandedHeightNotJump)
   {
     for (const unsigned int above : {4, 20})

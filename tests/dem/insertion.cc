@@ -191,7 +191,8 @@ namespace
                        NewParticle{Point<3>(1.5e-3, 0., 6e-3), 3e-3, Vector(), {}, 1}});
     EXPECT_NEAR(column.dem.original_sauter_diameter(),
                 (8. * 1. + 27. * 8.) / (8. * 1. + 27. * 4.) * 1e-3,
-                1e-15);
+                1e-3 * 0x1p-34)
+      << "to the quantum of an exact sum";
   }
 
   // Law (JKR): two spheres stick; a pull of 0.95 of 3/2 pi w R* does not part them, one

@@ -105,18 +105,20 @@ TEST(Restart, ASavedFlowGoesOnBitByBit)
       {
         VesselMesh first(vessel, coarse, MPI_COMM_WORLD);
         Column::refine(first, in_a_corner);
+        // As particles divide it: the ranks have other numbers of cells.
+        first.repartition(
+          [](const auto &cell) { return cell->center()[2] < 6e-3 ? 9u : 1u; });
         Flow whole(first, scheme);
         for (unsigned int n = 0; n < saved_at; ++n)
           whole.step(n);
-        whole.flow.save(scratch_file());
+        first.save(scratch_file(), whole.flow.cell_bytes());
         const FlowHistory history = whole.flow.history();
 
         VesselMesh second(vessel, coarse, MPI_COMM_WORLD);
-        second.load(scratch_file());
-        ASSERT_EQ(first.triangulation().n_active_cells(),
-                  second.triangulation().n_active_cells());
+        const auto bytes = second.load(scratch_file(), first.partition());
+        ASSERT_EQ(first.partition(), second.partition());
         Flow resumed(second, scheme);
-        resumed.flow.restore(history);
+        resumed.flow.restore(history, bytes);
         EXPECT_EQ(resumed.difference(whole), std::make_pair(0., 0.));
         for (unsigned int n = saved_at; n < saved_at + 3; ++n)
           {
@@ -137,12 +139,12 @@ TEST(Restart, AnyNumberOfRanksReadsASavedFlow)
   // The next step would not need a new preconditioner.
   for (unsigned int n = 0; n < 5; ++n)
     whole.step(n);
-  whole.flow.save(scratch_file());
+  first.save(scratch_file(), whole.flow.cell_bytes());
   // All of it on each rank.
   VesselMesh second(vessel, coarse, MPI_COMM_SELF);
-  second.load(scratch_file());
-  Flow resumed(second, "bdf2");
-  resumed.flow.restore(whole.flow.history());
+  const auto bytes = second.load(scratch_file(), {});
+  Flow       resumed(second, "bdf2");
+  resumed.flow.restore(whole.flow.history(), bytes);
   for (unsigned int n = 5; n < 8; ++n)
     {
       const auto one = whole.step(n), other = resumed.step(n);
@@ -173,10 +175,10 @@ TEST(Restart, AStepThatFailsLeavesNoTrace)
       EXPECT_EQ(failed.flow.outflow(), whole.flow.outflow());
       EXPECT_EQ(failed.flow.inflow(), whole.flow.inflow());
 
-      failed.flow.save(scratch_file());
-      second.load(scratch_file());
-      Flow resumed(second, "bdf2");
-      resumed.flow.restore(failed.flow.history());
+      mesh.save(scratch_file(), failed.flow.cell_bytes());
+      const auto bytes = second.load(scratch_file(), mesh.partition());
+      Flow       resumed(second, "bdf2");
+      resumed.flow.restore(failed.flow.history(), bytes);
       for (unsigned int n = failing; n < failing + 4; ++n)
         {
           whole.step(n);

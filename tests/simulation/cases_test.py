@@ -5,6 +5,7 @@ same but for what must not matter.
 """
 
 import hashlib
+import json
 import math
 import shutil
 import subprocess
@@ -12,6 +13,7 @@ import subprocess
 from runs import ROOT, RunTest, call, main
 
 from common.particles import positions
+from common.reference import ergun_pressure_drop
 
 CASES = ROOT / "tests" / "cases"
 # A tenth of a sphere's diameter [m]: what two packings of the same bed may differ by.
@@ -317,6 +319,85 @@ class Filling(CaseTest):
         self.assert_within(void, whole.bed["mean_void_fraction"], 0.08, "void fraction")
 
 
+def solid_at_wall_and_within(rows, radius):
+    """Thickness and solid fraction of the layer at the wall that is looser than what it
+    encloses, and the solid fraction of that, from bed-radial.csv."""
+    ring = [2.0 * row["wall_distance"] for row in rows]
+    edges = [0.0]
+    for twice in ring:
+        edges.append(twice - edges[-1])
+    area = [(radius - a) ** 2 - (radius - b) ** 2 for a, b in zip(edges, edges[1:])]
+    solid = [1.0 - row["void_fraction"] for row in rows]
+    layer = within = 0
+    for layer in range(len(rows)):
+        within = sum(s * a for s, a in zip(solid[layer:], area[layer:])) / sum(area[layer:])
+        if solid[layer] >= within:
+            break
+    at_wall = sum(s * a for s, a in zip(solid[:layer], area[:layer])) / sum(area[:layer])
+    return edges[layer], at_wall, within
+
+
+class OriginalBed(CaseTest):
+    """The void fraction of the particles that scaled ones stand for."""
+
+    def test_follows_the_layer_at_the_wall(self):
+        run = self.finished("orig", {"Original bed/void fraction": "correlation"})
+        radius, scale = run.bed["vessel_diameter"] / 2.0, run.bed["scale"]
+        thickness, at_wall, within = solid_at_wall_and_within(run.rows("bed-radial.csv"), radius)
+
+        def mean(thickness):
+            share = 1.0 - (1.0 - thickness / radius) ** 2
+            return within + (at_wall - within) * share
+
+        ratio = mean(thickness / scale) / mean(thickness)
+        self.assertGreater(ratio, 1.02)
+        # The program's shells are half as wide; where the layer ends counts in second order.
+        self.assert_close(run.bed["original_solid_ratio"], ratio, 2e-3, "ratio")
+        original = 1.0 - run.bed["original_void_fraction"]
+        simulated = 1.0 - run.bed["mean_void_fraction"]
+        ends = (1.0 - simulated / mean(thickness)) / scale
+        self.assert_close(original, mean(thickness / scale) * (1.0 - ends), 2e-3, "original")
+
+    def test_is_the_same_on_two_ranks(self):
+        packed = {"Original bed/void fraction": "simulated", "Flow/superficial velocities": ""}
+        one, two = (self.finished("orig", packed, ranks=ranks).bed for ranks in (1, 2))
+        self.assertEqual(one["original_void_fraction"], two["original_void_fraction"])
+
+    def test_the_ladder_multiplies_what_is_smooth(self):
+        run = self.finished("orig", {
+            "Original bed/void fraction": "simulated",
+            "Refinement study/vary": "scale",
+            "Refinement study/values": "3, 2.5, 2",
+        })  # fmt: skip
+        rows = [row for row in run.rows("study.csv") if row["level"] == 3]
+
+        def at_one(start):
+            (row,) = [row for row in rows if row["quantity"].startswith(start)]
+            return row["extrapolated"], row["grid_convergence_index"]
+
+        drop, error = at_one("pressure drop at")
+        over, of_over = at_one("pressure drop over Ergun's")
+        ergun, of_ergun = at_one("Ergun's value of the original bed")
+        self.assert_close(drop, over * ergun, 1e-8, "drop")
+        self.assert_close(error, math.hypot(of_over, of_ergun), 1e-8, "error")
+        # Ergun's value at the void fraction that the bed tells, for its solid on the section.
+        bed = json.loads((run.directory / "level-3" / "summary.json").read_text())["bed"]
+        solid = 1.0 - bed["original_void_fraction"]
+        height = bed["height"] * (1.0 - bed["mean_void_fraction"]) / solid
+        level = [row["value"] for row in rows if row["quantity"].startswith("Ergun's value")]
+        fluid = (1.18415, 1.85508e-5)
+        expected = ergun_pressure_drop(0.3, height, 1.0 - solid, 1e-3, *fluid)
+        self.assert_close(level[0], expected, 1e-6, "Ergun's value of the original bed")
+
+    def test_of_unscaled_particles_is_their_own(self):
+        run = self.finished("orig", {"Original bed/void fraction": "correlation",
+                                     "Particles/scale": 1, "Particles/diameter": 2e-3})  # fmt: skip
+        self.assertEqual(run.bed["original_solid_ratio"], 1.0)
+        self.assert_within(
+            run.bed["original_void_fraction"], run.bed["mean_void_fraction"], 1e-12
+        )
+
+
 class CheckedBeforehand(CaseTest):
     """What --check and a run must refuse before anything is written."""
 
@@ -324,6 +405,18 @@ class CheckedBeforehand(CaseTest):
         for check in (("--check",), ()):
             run = self.refused("orig", None, *check, says=["Original bed", "0.05", "0.02"])
             self.assertFalse(run.directory.exists())
+
+    def test_a_correlation_outside_of_a_cylinder(self):
+        correlation = {"Original bed/void fraction": "correlation"}
+        run = self.run_file(CASES / "orig.prm", correlation, "--check")
+        self.assertEqual(run.status, 0, run)
+        for reason, values in (
+            ("other walls", {"Walls/planes": "0.004 0 0 1 0 0"}),
+            ("three simulated particles", {"Particles/scale": 5, "Filling/count": 4}),
+        ):
+            self.checked(
+                "orig", {**correlation, **values}, says=["Original bed/void fraction", reason]
+            )
 
     def test_files_that_are_not_there(self):
         self.checked("bed20", {"Walls/surfaces": "missing.stl"}, says=["missing.stl"])

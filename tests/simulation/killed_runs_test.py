@@ -8,11 +8,25 @@ import signal
 import subprocess
 import time
 
-from runs import ROOT, Program, RunTest, main, overrides
+from runs import ROOT, RunTest, command, environment, main, overrides
 
 CASES = ROOT / "tests" / "cases"
 # A checkpoint after each step.
 ALWAYS = {"Output/checkpoint interval": 1e-6}
+# A window that the run is killed in, and what is averaged over it.
+AVERAGES = {
+    "Flow/time step": 2e-3,
+    "Averages/from": 0.007,
+    "Averages/to": 0.15,
+    "Averages/interval": 0.008,
+    "Averages/lines": "axis: 0 0 0 0 0 0.02 5 0.004 0.004",
+    "Averages/planes": "mid: -0.006 0 0 0.006 0 0 -0.006 0 0.02 3 5 0.002",
+    "Output/probes": "middle: 0 0 0.01",
+}
+MEANS = [
+    f"{name}-01.csv"
+    for name in ("averages", "spectra", "averages-lines", "averages-planes", "averages-midplane")
+] + ["snapshots.csv", "probes.csv"]
 
 
 class KilledRuns(RunTest):
@@ -22,18 +36,21 @@ class KilledRuns(RunTest):
         super().setUp()
         shutil.copytree(CASES, self.path, dirs_exist_ok=True)
 
-    def kill_in(self, phase, file, values):
+    def kill_in(self, phase, file, values, ranks):
         """Kills a run when monitors.csv has some rows of the phase and a checkpoint lies
         behind them."""
         output = self.path / "killed"
-        arguments = [Program.path, file, "--output", "killed", *overrides({**values, **ALWAYS})]
-        environment = dict(os.environ, OMP_NUM_THREADS="1")
-        run = subprocess.Popen(
-            arguments, cwd=self.path, env=environment, stdout=subprocess.DEVNULL
+        words = command(
+            file, "--output", "killed", *overrides({**values, **ALWAYS}), ranks=ranks
         )
+        # In a group of its own, so that all ranks are killed, with what started them.
+        run = subprocess.Popen(
+            words, cwd=self.path, env=environment(),
+            stdout=subprocess.DEVNULL, start_new_session=True,
+        )  # fmt: skip
         monitors = output / "monitors.csv"
-        # 100 spheres are in after 20 ms.
-        rows_before = 1 if phase == "fill" else 3
+        # 100 spheres are in after 20 ms; a flow is well on its way.
+        rows_before = {"fill": 1, "settle": 3, "flow": 12}[phase]
         for _ in range(6000):
             rows = monitors.read_text().splitlines() if monitors.exists() else []
             in_phase = [row for row in rows if f",{phase}," in row]
@@ -41,21 +58,23 @@ class KilledRuns(RunTest):
                 break
             self.assertIsNone(run.poll(), f"it ended before that many rows of {phase}")
             time.sleep(0.001)
-        run.send_signal(signal.SIGKILL)
+        os.killpg(run.pid, signal.SIGKILL)
         run.wait()
         return output
 
-    def expect_the_same(self, file, values, phases):
-        whole = self.run_file(file, values, output="whole")
+    def expect_the_same(self, file, values, phases, further=(), ranks=1):
+        whole = self.run_file(file, values, output="whole", ranks=ranks)
         self.assertEqual(whole.status, 0, whole)
         for phase in phases:
             shutil.rmtree(self.path / "killed", ignore_errors=True)
-            output = self.kill_in(phase, file, values)
+            output = self.kill_in(phase, file, values, ranks)
             self.assertFalse((output / "summary.json").exists())
-            resumed = self.run_file(file, values, "--resume", output="killed")
+            resumed = self.run_file(
+                file, values, "--resume", output="killed", ranks=ranks
+            )
             self.assertEqual(resumed.status, 0, resumed)
             self.assertIn("resumed at", resumed.said)
-            for name in ("monitors.csv", "wall-forces.csv"):
+            for name in ("monitors.csv", "wall-forces.csv", *further):
                 one, other = (
                     (folder / name).read_text().splitlines()
                     for folder in (whole.directory, output)
@@ -65,7 +84,13 @@ class KilledRuns(RunTest):
                     self.assertEqual(there, here, f"{name}, killed in {phase}")
 
     def test_a_bed_that_moves(self):
-        self.expect_the_same("restart.prm", {}, ("fill", "settle", "flow"))
+        self.expect_the_same("restart.prm", {}, ("fill", "settle"))
+
+    def test_averages_of_a_bed_that_moves(self):
+        self.expect_the_same("restart.prm", AVERAGES, ("flow",), MEANS)
+
+    def test_a_bed_that_moves_on_two_ranks(self):
+        self.expect_the_same("restart.prm", {}, ("settle", "flow"), ranks=2)
 
     def test_a_rain_at_a_rate(self):
         self.expect_the_same("rate.prm", {}, ("fill", "settle"))

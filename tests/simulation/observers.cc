@@ -115,6 +115,9 @@ TEST(Quantities, HaveNamesOfTheirOwn)
   names.clear();
   for (const auto &quantity : case_quantities())
     EXPECT_TRUE(names.insert(quantity.name).second) << quantity.name;
+  names.clear();
+  for (const auto &quantity : bin_quantities())
+    EXPECT_TRUE(names.insert(quantity.name).second) << quantity.name;
 }
 
 // The documentation is what graupel --print-columns prints.
@@ -123,6 +126,7 @@ TEST(Quantities, AreDocumentedAsTheyAre)
   const std::string columns = text_of("output-files.md");
   EXPECT_NE(columns.find(documentation(monitors())), std::string::npos);
   EXPECT_NE(columns.find(documentation(case_quantities())), std::string::npos);
+  EXPECT_NE(columns.find(documentation(bin_quantities())), std::string::npos);
   EXPECT_NE(text_of("going-on.md").find(table_of_changes()), std::string::npos);
 }
 

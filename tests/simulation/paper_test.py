@@ -15,9 +15,8 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "scripts"))
 
 import numpy as np
 
-from common import particles
+from common import fluidisation, particles
 from common.run_output import RunOutput
-from paper_parts import runs
 
 AREA = math.pi * 0.025**2 / 4.0
 A, B, WEIGHT = 700.0, 1700.0, 0.48
@@ -31,7 +30,7 @@ def fixed_bed(velocity):
 def a_run(velocities, buoyancy=0.0):
     """A run whose bed drops a V + b V^2 until the fluid carries it."""
     run = RunOutput(pathlib.Path("nowhere"))
-    solid = buoyancy / (runs.GRAVITY * 1.2)
+    solid = buoyancy / (fluidisation.GRAVITY * 1.2)
     run.summary = {
         "bed": {"vessel_diameter": 0.025, "solid_volume": solid},
         "fluid": {"density": 1.2},
@@ -74,15 +73,15 @@ class Onset(unittest.TestCase):
     def test_line_of_the_fixed_bed_meets_the_weight(self):
         for buoyancy in (0.0, 0.01):
             run = a_run((0.2, 0.3, 0.4, 0.9), buoyancy)
-            self.assertAlmostEqual(fixed_bed(runs.onset(run)), (WEIGHT - buoyancy) / AREA, places=6)
+            self.assertAlmostEqual(fixed_bed(fluidisation.onset(run)), (WEIGHT - buoyancy) / AREA, places=6)
 
     def test_plateau(self):
-        lifted = runs.plateau(a_run((0.2, 0.9, 1.0)))
+        lifted = fluidisation.plateau(a_run((0.2, 0.9, 1.0)))
         self.assertAlmostEqual(lifted.level, 1.0, places=12)
         self.assertAlmostEqual(lifted.on_bottom, 0.0, places=12)
         self.assertAlmostEqual(lifted.on_wall, 0.01, places=12)
         self.assertAlmostEqual(lifted.seconds, 0.19, places=12)
-        self.assertIsNone(runs.plateau(a_run((0.2, 0.3))))
+        self.assertIsNone(fluidisation.plateau(a_run((0.2, 0.3))))
 
 
 class Particles(unittest.TestCase):

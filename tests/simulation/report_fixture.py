@@ -109,6 +109,49 @@ def what_further_monitors_say(step):
     return [0.3, bottom, 0.4, 20997 - step, step, 0, 0.1, 0.05]
 
 
+BINNED = ("velocity_z", "velocity_rms_z", "solid_flux_x", "solid_flux_z", "flux_z")
+
+
+def write_averages(directory, number):
+    """What a run with a window of averages leaves of a case, from a pressure that swings."""
+    swing = 2.5
+    rows = [
+        ["pressure_drop", "Pa", 400, 390.0, 12.0, 1.5, swing],
+        ["expanded_height", "m", 400, HEIGHT, 1e-3, "", ""],
+        ["linear_iterations", "-", 400, 12.0, 0.0, "", ""],
+        ["inlet_pressure", "Pa", 400, 400.0, 13.0, 1.6, swing],
+    ]
+    header = ["quantity", "unit", "samples", "mean", "rms", "error", "frequency"]
+    write_csv(directory / f"averages-{number:02d}.csv", header, rows)
+    frequencies = np.arange(1, 40) * 0.25
+    rows = [[f, 1.0 / (1.0 + (f - swing) ** 2), 1e-6 / f] for f in frequencies]
+    header = ["frequency", "pressure_drop", "expanded_height"]
+    write_csv(directory / f"spectra-{number:02d}.csv", header, rows)
+
+    header = ["name", "x", "y", "z", "along", "across", "solid_fraction", "solid_fraction_rms"]
+    header += ["void_fraction", *BINNED]
+    rows = [
+        [name, along - 0.012, 0.0, 0.05, along, "", 0.5, 0.1, "" if along < 2e-3 else 0.45]
+        + [0.1, 0.2, 0.0, 0.05, 0.6]
+        for name in ("low", "high")
+        for along in np.arange(0.001, 0.024, 0.002)
+    ]
+    write_csv(directory / f"averages-lines-{number:02d}.csv", header, rows)
+    rows = [
+        ["mid", along - 0.012, 0.0, across, along, across, 0.5 + along, 0.1, 0.45]
+        + [0.1, 0.2, 0.01, 0.05, 0.6]
+        for across in np.arange(0.01, 0.15, 0.01)
+        for along in np.arange(0.001, 0.024, 0.002)
+    ]
+    write_csv(directory / f"averages-planes-{number:02d}.csv", header, rows)
+    points = [(x, z) for x in np.linspace(-0.0125, 0.0125, 11) for z in np.linspace(0, 0.169, 60)]
+    rows = [[x, z, 0.4 if z < HEIGHT else 1.0, 0.5, 100.0] for x, z in points]
+    header = list(run_output.MIDPLANE_COLUMNS)
+    write_csv(directory / f"averages-midplane-{number:02d}.csv", header, rows)
+    rows = [[time, number, x, z, 0.4 + 10 * time] for time in (0.05, 0.055) for x, z in points]
+    write_csv(directory / "snapshots.csv", ["time", "case", "x", "z", "void_fraction"], rows)
+
+
 def write_run(directory, scale=1.0, vessel=VESSEL, steps=60):
     """A complete output directory with one fixed-bed case and one lifted one."""
     cases = [one_case(0.271, False), one_case(0.534, True)]
@@ -153,3 +196,4 @@ def write_run(directory, scale=1.0, vessel=VESSEL, steps=60):
         for height in np.linspace(0.0, 0.169, 60)
     ]
     write_csv(directory / "midplane-02.csv", run_output.MIDPLANE_COLUMNS, rows)
+    write_averages(directory, 2)

@@ -86,6 +86,17 @@ class WholeReport(unittest.TestCase):
                 self.assertRegex(target, r"^(#|data:)")
         self.assertNotRegex(self.words, r"url\(|@import|<script|<link")
 
+    def test_means_over_time_are_a_table(self):
+        start = self.words.index("The moving bed")
+        table = self.words[start : self.words.index("<figure", start)]
+        cells = re.findall(r"<td>([^<]*)</td>", table)
+        self.assertEqual(cells[:7], ["2", "pressure drop", "Pa", "390", "1.5", "12", "2.5"])
+        # What is known of the expanded height, in millimetres; the rest is a dash.
+        self.assertEqual(cells[7:14], ["2", "expanded height", "mm", "149.9", "-", "1", "-"])
+        # Probes too, but no iterations.
+        self.assertIn("inlet pressure", cells)
+        self.assertNotIn("linear iterations", cells)
+
     def test_names_are_escaped(self):
         self.assertIn("Graupel: &lt;sweep&gt;.prm", self.words)
         self.assertNotIn("<sweep>", self.words)

@@ -21,20 +21,28 @@ class Program:
     path = None
 
 
-def call(*arguments, ranks=1, cwd=None, timeout=600):
-    """The finished process of graupel with these arguments."""
-    environment = dict(
+def environment():
+    """What a run needs to be told by the machine: one thread a rank, also as root."""
+    return dict(
         os.environ,
         OMPI_ALLOW_RUN_AS_ROOT="1",
         OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1",
         OMP_NUM_THREADS="1",
     )
-    command = [Program.path, *map(str, arguments)]
-    if ranks > 1:
-        command = ["mpirun", "--oversubscribe", "-np", str(ranks)] + command
+
+
+def command(*arguments, ranks=1):
+    """The words that call graupel with these arguments."""
+    words = [Program.path, *map(str, arguments)]
+    return words if ranks == 1 else ["mpirun", "--oversubscribe", "-np", str(ranks)] + words
+
+
+def call(*arguments, ranks=1, cwd=None, timeout=600):
+    """The finished process of graupel with these arguments."""
     return subprocess.run(
-        command, env=environment, capture_output=True, text=True, timeout=timeout, cwd=cwd
-    )
+        command(*arguments, ranks=ranks),
+        env=environment(), capture_output=True, text=True, timeout=timeout, cwd=cwd,
+    )  # fmt: skip
 
 
 def overrides(values):

@@ -77,6 +77,43 @@ TEST(Study, LadderEndsAtScaleOne)
   EXPECT_NEAR(*rows[2].index, 1.25 * 6. / value(1.), 1e-12);
 }
 
+// A drop that is a smooth ratio times a value of the original bed which every level tells
+// with an error of its own: the ratio is extrapolated, the value averaged.
+TEST(Study, ALadderMultipliesWhatItsFactorsComeTo)
+{
+  const auto ratio = [](const double s) { return 0.98 + 0.005 * s; };
+  const auto at    = [&](const double s, const double original) {
+    LevelResult result = level(s, 0.);
+    Measurement over{"over", ratio(s)}, value{"original", original};
+    value.at_scale_one = AtScaleOne::mean;
+    Measurement drop{"drop", ratio(s) * (500. - 60. * s)};
+    drop.at_scale_one   = AtScaleOne::product;
+    drop.factors        = {"over", "original"};
+    result.measurements = {drop, over, value};
+    return result;
+  };
+  const auto rows = evaluate_ladder({at(4., 430.), at(3., 430.), at(2., 430.)});
+  ASSERT_EQ(rows.size(), 9u);
+  EXPECT_NEAR(rows[2].extrapolated.value(), ratio(1.) * 430., 1e-10);
+  EXPECT_NEAR(rows[2].index.value(), 0., 1e-12);
+  EXPECT_NEAR(rows[8].extrapolated.value(), 430., 1e-12);
+  EXPECT_FALSE(rows[1].extrapolated);
+  const auto scattered = evaluate_ladder({at(4., 430.), at(3., 430.), at(2., 439.)});
+  EXPECT_NEAR(
+    scattered[2].extrapolated.value(), ratio(1.) * (430. + 9. * 36. / 49.), 1e-9);
+  EXPECT_GT(scattered[2].index.value(), 0.005);
+}
+
+// A level at scale 1 is its own value, whatever larger spheres tell.
+TEST(Study, ALadderDownToScaleOneNeedsNoMean)
+{
+  LevelResult levels[3] = {level(3., 5.), level(2., 6.), level(1., 7.)};
+  for (LevelResult &one : levels)
+    one.measurements[0].at_scale_one = AtScaleOne::mean;
+  const auto rows = evaluate_ladder({levels[0], levels[1], levels[2]});
+  EXPECT_DOUBLE_EQ(rows[2].extrapolated.value(), 7.);
+}
+
 TEST(Study, NothingIsComputedAcrossAHole)
 {
   // f = 3 + h^2 / 4 has order 2 and the value 3 at h = 0.

@@ -62,6 +62,21 @@ namespace graupel
                        const std::vector<double>      &standard_errors,
                        const double                    to);
 
+  /**
+   * Mean of computations each of which tells the value at the size @p to by itself, with
+   * an error of its form that grows as the distance of its size from there: weights
+   * 1 / (size - to)^2. Its error joins in quadrature the @p standard_errors and the
+   * scatter about the mean, sqrt(sum w (x - mean)^2 / (n - 1)) with weights that sum to
+   * 1. Throws std::invalid_argument for fewer than two, unequal numbers of both, or a
+   * size that is @p to.
+   */
+  Estimate mean_at(const std::vector<Computation> &computations,
+                   const std::vector<double>      &standard_errors,
+                   const double                    to);
+
+  /** Product of independent estimates; relative errors add in quadrature. */
+  Estimate product(const Estimate &one, const Estimate &other);
+
   /** Order from two errors whose exact value 0 is known [-]; absent for zero errors. */
   std::optional<double> observed_order(const Computation &fine,
                                        const Computation &coarse);

@@ -7,7 +7,7 @@
 
 /**
  * @file
- * The one way from text to a number: whatever holds numbers in a text of its own
+ * The one way from text to a number and back: whatever holds numbers in a text of its own
  * (a list of sizes, a plane, a row of a table) reads them here.
  */
 
@@ -31,6 +31,9 @@ namespace graupel
    * them. Throws InputError(parameter) where one is none.
    */
   std::vector<double> read_numbers(const std::string &parameter, const std::string &text);
+
+  /** @p value with so many significant digits, for a sentence; 17 lose nothing. */
+  std::string text_of(const double value, const int digits = 6);
 } // namespace graupel
 
 #endif

@@ -87,18 +87,6 @@ namespace graupel
   double de_klerk_void_fraction(const double z, const double bulk);
 
   /**
-   * Mean void fraction [-] of a bed of equal spheres in a cylinder
-   * @p diameter_ratio = D / d times as wide, 1.5 to 50:
-   *
-   *   0.390 + 1.740 / (D/d + 1.140)^2,
-   *
-   * to 1.5 % on average.
-   * Source: Benyahia & O'Neill, Part. Sci. Technol. 23 (2005) 169,
-   * doi:10.1080/02726350590922242.
-   */
-  double benyahia_oneill_void_fraction(const double diameter_ratio);
-
-  /**
    * Vertical stress [Pa] in a bed at @p depth [m] below its top in a cylinder of
    * diameter D = @p diameter [m], which the wall helps to carry:
    *

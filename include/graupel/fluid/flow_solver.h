@@ -190,19 +190,19 @@ namespace graupel
                        const NodalVector      &pressure,
                        const NodalVector      &void_fraction);
 
-    /** Writes the mesh and all fields that the next step depends on to files whose names
-     * begin with @p file. Collective. */
-    void save(const std::string &file) const;
+    /** All values of the fields that the next step depends on, by cell. */
+    VesselMesh::CellBytes cell_bytes() const;
 
     /** What belongs to these fields. */
     FlowHistory history() const;
 
     /**
-     * Goes on from the fields of save(), on the mesh that VesselMesh has loaded from the
-     * same file, and from their @p history. On the same ranks the next steps are the same
-     * bit by bit as if nothing had been in between. Collective.
+     * Goes on from the cell_bytes() and the @p history() of another solver on the same
+     * mesh, as VesselMesh::load() gives them back. On the same ranks with the same cells
+     * the next steps are the same bit by bit as if nothing had been in between.
+     * Collective.
      */
-    void restore(const FlowHistory &history);
+    void restore(const FlowHistory &history, VesselMesh::CellBytes bytes);
 
     /** alpha of the last step, 1 before the first [-], ghosts up to date. */
     const NodalVector &
@@ -356,8 +356,10 @@ namespace graupel
     void                 level_published_pressure();
     void                 publish();
     void                 keep_history(const Medium &medium, const double step);
-    std::vector<char>    pack_unresolved(const unsigned int cell) const;
-    void unpack_unresolved(const unsigned int cell, const char *const bytes);
+    template <typename Solver, typename RecipeType>
+    static auto fields_of_history(Solver &solver, RecipeType &recipe);
+    void        append_unresolved(VesselMesh::CellBytes &bytes) const;
+    void        take_unresolved(VesselMesh::CellBytes &bytes);
 
     const FlowParameters parameters;
     const double         density;

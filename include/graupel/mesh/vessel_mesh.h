@@ -143,20 +143,32 @@ namespace graupel
      */
     void adapt(const CellWeight &weight);
 
-    /** Writes the refinement, and what is attached for it, to files whose names begin
-     * with
-     * @p file. Collective. */
-    void save(const std::string &file) const;
+    /** Bytes of each own active cell, in the order of owned_cells(); equally many each. */
+    using CellBytes = std::vector<std::vector<char>>;
 
-    /** Takes the refinement over from save(), of a mesh with the same parameters, on any
-     * number of ranks. Everything that knows the old mesh is void. Collective. */
-    void load(const std::string &file);
+    /** Writes the refinement and @p bytes to files whose names begin with @p file.
+     * Collective. */
+    void save(const std::string &file, const CellBytes &bytes) const;
+
+    /** Cells of each rank. Collective. */
+    std::vector<unsigned int> partition() const;
+
+    /**
+     * Takes the refinement over from save(), of a mesh with the same parameters, on any
+     * number of ranks; on as many as @p partition has numbers, with that partition(), so
+     * that sums over ranks come out the same. Everything that knows the old mesh is void.
+     * Returns the bytes that were saved. Collective.
+     */
+    CellBytes load(const std::string &file, const std::vector<unsigned int> &partition);
 
     /** The smallest distance between two vertices of one cell, over all ranks [m]. */
     double smallest_edge() const;
 
   private:
-    void make_from_file(const std::string &file, const double cell_size);
+    void         make_from_file(const std::string &file, const double cell_size);
+    unsigned int attach(const CellBytes &bytes);
+    CellBytes    detach(const unsigned int handle);
+    CellBytes    divide_as(const std::vector<unsigned int> &partition, const CellBytes &);
 
     Cylinder                                        vessel;
     BoundaryIds                                     boundary_ids;

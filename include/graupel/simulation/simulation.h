@@ -3,7 +3,6 @@
 
 #include <graupel/simulation/files/checkpoint.h>
 #include <graupel/simulation/files/summary.h>
-#include <graupel/simulation/observers/probes.h>
 #include <graupel/simulation/phases/flow_case.h>
 
 namespace graupel
@@ -64,7 +63,6 @@ namespace graupel
     SimulationState  state;
     ResultFiles     &files;
     FlowCase::Series series;
-    Probes           probes;
 
     /** The settled bed of another run that this one begins with. */
     std::optional<DemState> given_bed;

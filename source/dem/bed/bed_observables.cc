@@ -1,7 +1,4 @@
 #include <graupel/dem/bed/bed_observables.h>
-#include <graupel/dem/numbers/exact_sum.h>
-
-#include <deal.II/base/numbers.h>
 
 #include <algorithm>
 #include <cmath>
@@ -22,16 +19,10 @@ namespace graupel
     constexpr double no_bed = 0.25, all_bed = 0.75;
   } // namespace
 
-  double
-  sphere_volume_below(const double radius, const double height)
-  {
-    const double h = std::clamp(height, 0., 2. * radius);
-    return dealii::numbers::PI / 3. * h * h * (3. * radius - h);
-  }
-
   // The solid below levels a slab's eighth apart, from a slab below the floor on.
   struct BedObservables::Profile
   {
+    const SolidBelow   &exact;
     double              slab, first, step;
     std::vector<double> below;
 
@@ -77,50 +68,36 @@ namespace graupel
   }
 
   double
-  BedObservables::largest_radius() const
+  BedObservables::solid_volume_between(const double lower, const double upper) const
   {
-    double largest = 0.;
-    for (unsigned int i = 0; i < particles.n_owned; ++i)
-      largest = std::max(largest, particles.body[i].radius);
-    return dealii::Utilities::MPI::max(largest, communicator);
-  }
-
-  std::vector<double>
-  BedObservables::solid_volume_below(const std::vector<double> &planes) const
-  {
-    const ExactSum zero(sphere_volume(largest_radius()));
-    // Spheres that a plane cuts, and whole ones by the first plane above them.
-    std::vector<ExactSum> sums(planes.size(), zero), whole(planes.size() + 1, zero);
-    for (unsigned int i = 0; i < particles.n_owned; ++i)
-      {
-        const double r      = particles.body[i].radius,
-                     lowest = particles.body[i].position[2] - r;
-        std::size_t k =
-          std::upper_bound(planes.begin(), planes.end(), lowest) - planes.begin();
-        for (; k < planes.size() && planes[k] - lowest < 2. * r; ++k)
-          sums[k].add(sphere_volume_below(r, planes[k] - lowest));
-        whole[k].add(sphere_volume_below(r, 2. * r));
-      }
-    ExactSum passed = zero;
-    for (std::size_t k = 0; k < planes.size(); ++k)
-      {
-        passed.add(whole[k]);
-        sums[k].add(passed);
-      }
-    return ExactSum::totals(sums, communicator);
+    return SolidBelow(particles, communicator).between(lower, upper);
   }
 
   double
-  BedObservables::solid_volume_between(const double lower, const double upper) const
+  BedObservables::center_of_mass() const
   {
-    const auto below = solid_volume_below({lower, upper});
-    return below[1] - below[0];
+    double heaviest = 0., highest = 0.;
+    for (unsigned int i = 0; i < particles.n_owned; ++i)
+      {
+        heaviest = std::max(heaviest, particles.mass[i]);
+        highest  = std::max(highest, std::abs(particles.body[i].position[2]));
+      }
+    heaviest = dealii::Utilities::MPI::max(heaviest, communicator);
+    highest  = dealii::Utilities::MPI::max(highest, communicator);
+    ExactSum mass(heaviest), moment(heaviest * highest);
+    for (unsigned int i = 0; i < particles.n_owned; ++i)
+      {
+        mass.add(particles.mass[i]);
+        moment.add(particles.mass[i] * particles.body[i].position[2]);
+      }
+    const auto totals = ExactSum::totals({mass, moment}, communicator);
+    return totals[1] / totals[0];
   }
 
   std::vector<double>
   BedObservables::solid_fractions(const std::vector<double> &planes) const
   {
-    const auto          below = solid_volume_below(planes);
+    const auto          below = SolidBelow(particles, communicator).at(planes);
     std::vector<double> fractions;
     for (std::size_t k = 0; k + 1 < planes.size(); ++k)
       {
@@ -137,64 +114,78 @@ namespace graupel
   }
 
   double
-  BedObservables::slab_fraction(const double middle, const double slab) const
+  BedObservables::slab_fraction(const Profile &solid, const double middle) const
   {
-    const double lower = middle - slab / 2., upper = middle + slab / 2.;
-    return solid_volume_between(lower, upper) / (area_near(middle) * (upper - lower));
+    const double half = solid.slab / 2.;
+    return solid.exact.between(middle - half, middle + half) /
+           (area_near(middle) * solid.slab);
   }
 
   double
-  BedObservables::edge_of_bed(const double start,
-                              const double threshold,
-                              const double slab,
-                              const bool   upwards) const
+  BedObservables::fraction_at_level(const Profile &solid, const std::size_t k) const
   {
-    // The slab's fraction is continuous in its place, so bisection finds where
-    // it falls through the threshold once a step has bracketed that.
-    constexpr unsigned int across = levels_of_slab;
-    const double           step   = slab / across;
-    const double way     = upwards ? vessel.ceiling() - start : start - vessel.floor();
-    const auto   n_steps = static_cast<unsigned int>(std::max(0., way + slab) / step) + 2;
-    const unsigned int n_planes = n_steps + across;
-    const double       first =
-      upwards ? start - slab / 2. : start + slab / 2. - (n_planes - 1) * step;
-    std::vector<double> planes;
-    for (unsigned int k = 0; k < n_planes; ++k)
-      planes.push_back(first + k * step);
-    const auto below = solid_volume_below(planes);
-    const auto place = [&](const unsigned int k) {
-      return upwards ? start + k * step : start - k * step;
-    };
-    const auto is_bed = [&](const unsigned int k) {
-      const unsigned int lower = upwards ? k : n_planes - 1 - across - k;
-      return below[lower + across] - below[lower] >=
-             threshold * area_near(place(k)) * slab;
-    };
-    unsigned int k = 0;
-    while (k + 1 < n_steps && is_bed(k))
-      ++k;
-    if (k == 0)
-      return start;
+    constexpr unsigned int half = levels_of_slab / 2;
+    return (solid.below[k + half] - solid.below[k - half]) /
+           (area_near(solid.level(k)) * solid.slab);
+  }
 
-    double bed = place(k - 1), beyond = place(k);
-    while (std::abs(beyond - bed) > 1e-7 * slab)
+  double
+  BedObservables::edge_of_bed(const Profile &solid,
+                              const double   start,
+                              const double   threshold,
+                              const bool     upwards) const
+  {
+    constexpr std::ptrdiff_t half  = levels_of_slab / 2;
+    const double             place = (start - solid.first) / solid.step;
+    const std::ptrdiff_t     way   = upwards ? 1 : -1;
+    const auto               begin =
+      static_cast<std::ptrdiff_t>(upwards ? std::ceil(place) : std::floor(place));
+    const auto beyond = [&](const std::ptrdiff_t k) {
+      return upwards ? solid.total() - solid.below[k] : solid.below[k];
+    };
+    const auto           n    = static_cast<std::ptrdiff_t>(solid.below.size());
+    std::ptrdiff_t       last = begin - way; // that is bed
+    const std::ptrdiff_t none = last;
+    for (std::ptrdiff_t k = begin; k >= half && k + half < n; k += way)
+      if (fraction_at_level(solid, k) >= threshold)
+        last = k;
+      else if (beyond(k) < loose_part * solid.total())
+        break;
+    if (last == none && slab_fraction(solid, start) < threshold)
+      return start;
+    return edge_between(solid,
+                        last == none ? start : solid.level(last),
+                        solid.level(last + way),
+                        threshold);
+  }
+
+  // The slab's fraction is continuous in its place, so bisection finds where it falls
+  // through the threshold.
+  double
+  BedObservables::edge_between(const Profile &solid,
+                               double         bed,
+                               double         beyond,
+                               const double   threshold) const
+  {
+    while (std::abs(beyond - bed) > 1e-7 * solid.slab)
       {
-        const double middle                                       = 0.5 * (bed + beyond);
-        (slab_fraction(middle, slab) >= threshold ? bed : beyond) = middle;
+        const double middle                                        = 0.5 * (bed + beyond);
+        (slab_fraction(solid, middle) >= threshold ? bed : beyond) = middle;
       }
     return 0.5 * (bed + beyond);
   }
 
   BedObservables::Profile
-  BedObservables::profile(const double slab) const
+  BedObservables::profile(const SolidBelow &exact) const
   {
-    Profile    result{slab, vessel.floor() - slab, slab / levels_of_slab, {}};
-    const auto n = 2 + static_cast<unsigned int>(
+    const double slab = 2. * exact.largest_radius();
+    Profile      result{exact, slab, vessel.floor() - slab, slab / levels_of_slab, {}};
+    const auto   n = 2 + static_cast<unsigned int>(
                          (vessel.ceiling() + slab - result.first) / result.step);
     std::vector<double> planes;
     for (unsigned int k = 0; k < n; ++k)
       planes.push_back(result.level(k));
-    result.below       = solid_volume_below(planes);
+    result.below       = exact.at(planes);
     const double under = result.below.front();
     for (double &volume : result.below)
       volume -= under;
@@ -203,11 +194,12 @@ namespace graupel
 
   // False if the middle half is empty.
   bool
-  BedObservables::measure_middle(Bed &bed) const
+  BedObservables::measure_middle(const Profile &solid, Bed &bed) const
   {
-    const double h = bed.top - bed.bottom;
-    bed.bulk_solid_fraction =
-      solid_fractions({bed.bottom + 0.25 * h, bed.bottom + 0.75 * h})[0];
+    const double h     = bed.top - bed.bottom;
+    const double lower = bed.bottom + 0.25 * h, upper = bed.bottom + 0.75 * h;
+    const double space      = vessel.volume(lower, upper);
+    bed.bulk_solid_fraction = space > 0. ? solid.exact.between(lower, upper) / space : 0.;
     return bed.bulk_solid_fraction > 0.;
   }
 
@@ -222,10 +214,10 @@ namespace graupel
       {
         const double h = bed.height;
         bed.top        = bed.bottom + h;
-        if (!measure_middle(bed))
+        if (!measure_middle(solid, bed))
           return Bed();
-        bed.top = edge_of_bed(
-          bed.bottom + 0.5 * h, 0.5 * bed.bulk_solid_fraction, solid.slab, true);
+        bed.top =
+          edge_of_bed(solid, bed.bottom + 0.5 * h, 0.5 * bed.bulk_solid_fraction, true);
         bed.height = bed.top - bed.bottom;
         if (std::abs(bed.height - h) < 1e-6 * solid.slab)
           break;
@@ -247,9 +239,7 @@ namespace graupel
     const auto   middle =
       static_cast<std::size_t>((solid.quantile(0.5) - solid.first) / solid.step);
     for (std::size_t k = middle; k >= levels_of_slab + half; --k)
-      if (k + half < solid.below.size() &&
-          solid.below[k + half] - solid.below[k - half] <
-            threshold * area_near(solid.level(k)) * solid.slab)
+      if (k + half < solid.below.size() && fraction_at_level(solid, k) < threshold)
         return solid.below[k] < loose_part * solid.total();
     return false;
   }
@@ -268,11 +258,11 @@ namespace graupel
     for (unsigned int iteration = 0; iteration < 20; ++iteration)
       {
         const double before = bed.top - bed.bottom;
-        if (!measure_middle(bed))
+        if (!measure_middle(solid, bed))
           return Bed();
         const double threshold = 0.5 * bed.bulk_solid_fraction;
-        bed.bottom             = edge_of_bed(middle, threshold, solid.slab, false);
-        bed.top                = edge_of_bed(middle, threshold, solid.slab, true);
+        bed.bottom             = edge_of_bed(solid, middle, threshold, false);
+        bed.top                = edge_of_bed(solid, middle, threshold, true);
         if (std::abs(bed.top - bed.bottom - before) < 1e-6 * solid.slab)
           break;
       }
@@ -320,10 +310,11 @@ namespace graupel
   BedObservables::Bed
   BedObservables::bed() const
   {
-    const double slab = 2. * largest_radius();
+    const SolidBelow exact(particles, communicator);
+    const double     slab = 2. * exact.largest_radius();
     if (!(slab > 0.) || !(vessel.volume(vessel.floor(), vessel.ceiling()) > 0.))
       return Bed();
-    const Profile solid = profile(slab);
+    const Profile solid = profile(exact);
     if (!(solid.total() > 0.))
       return Bed();
     Bed bed            = hangs(solid) ? hanging_bed(solid) : standing_bed(solid);
@@ -332,7 +323,7 @@ namespace graupel
     if (!(bed.height >= slab && space > 0.))
       return Bed();
     bed.mean_void_fraction =
-      1. - solid_volume_between(bed.bottom - slab, bed.top + slab) / space;
+      1. - exact.between(bed.bottom - slab, bed.top + slab) / space;
     bed.exists = bed.mean_void_fraction >= least_void_fraction;
     if (!bed.exists)
       return Bed();

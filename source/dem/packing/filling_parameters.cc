@@ -1,9 +1,8 @@
 #include <graupel/base/parameters.h>
+#include <graupel/base/read_numbers.h>
 #include <graupel/dem/packing/filling.h>
 #include <graupel/dem/packing/loose_packing.h>
 #include <graupel/dem/particles/particle_list.h>
-
-#include <sstream>
 
 namespace graupel
 {
@@ -20,15 +19,6 @@ namespace graupel
 
     // No more of the space below the top can be taken by spheres that fall through it.
     constexpr double densest_rain = 0.5;
-
-    std::string
-    text_of(const double value)
-    {
-      std::ostringstream text;
-      text.precision(4);
-      text << value;
-      return text.str();
-    }
 
     // Of spheres of so many sizes: small ones fill the holes of large ones.
     double

@@ -1,6 +1,7 @@
 #include <graupel/dem/particles/dem_error.h>
 #include <graupel/dem/particles/parcel.h>
 #include <graupel/dem/particles/particle_store.h>
+#include <graupel/mesh/cell_order.h>
 
 #include <deal.II/grid/grid_tools.h>
 
@@ -267,9 +268,9 @@ namespace graupel
     std::vector<std::pair<std::int64_t, dealii::Particles::ParticleIterator<3>>> by_id;
     cells.clear();
     std::uint32_t row = 0;
-    for (const auto &cell : mesh.triangulation().active_cell_iterators())
+    for (const auto &cell : owned_cells(mesh.triangulation()))
       {
-        if (!cell->is_locally_owned() || handler.n_particles_in_cell(cell) == 0)
+        if (handler.n_particles_in_cell(cell) == 0)
           continue;
         cells.push_back({cell, row, {}});
         // By id, so that sums over rows do not depend on how the particles came here.

@@ -70,10 +70,11 @@ namespace graupel
       raw(archive, state.costs);
       archive &state.wall_seconds &state.cpu_seconds;
       archive &state.written.fields &state.written.particles &state.written.contacts;
+      archive                                                &state.written.averages;
       archive &state.phase_number &state.phase &state.has_fluid;
       raw(archive, state.velocity);
       raw(archive, state.fluid);
-      archive &state.stable_step;
+      archive &state.stable_step &state.averaged_time &state.partition;
     }
 
     // The version goes first; false if the file is another's.

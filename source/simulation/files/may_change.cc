@@ -21,6 +21,7 @@ namespace graupel
     // The first rule whose path fits counts; what no rule fits may not change in a run,
     // and may for a bed.
     constexpr Rule rules[] = {
+      {"Output/probes", true, false, false, "columns of tables that go on"},
       {"Output/", true, true, true, "what is written does not change what happens"},
       {"Flow solver/", true, true, true, "how equations are solved, not which"},
       {"Boundary conditions/",
@@ -40,6 +41,7 @@ namespace graupel
       {"Flow/mode", true, true, false, "for the cases that come"},
       {"Flow/", true, true, true, "when a case ends, and how its velocity is reached"},
       {"Settling/", true, true, false, "for a bed that settles still"},
+      {"Averages/", true, true, false, "their account goes on"},
       {"Mesh adaption/", true, true, true, "from the next adaption on"},
       {"Feed", true, false, false, "their account goes on"},
       {"Refinement study/", true, true, true, "has no meaning for a run that goes on"},

@@ -1,12 +1,5 @@
 #include <graupel/base/parameters.h>
-#include <graupel/simulation/files/contact_output.h>
-#include <graupel/simulation/files/particle_output.h>
 #include <graupel/simulation/files/result_files.h>
-
-#include <deal.II/base/data_out_base.h>
-#include <deal.II/dofs/dof_tools.h>
-#include <deal.II/fe/fe_system.h>
-#include <deal.II/numerics/data_out.h>
 
 #include <filesystem>
 #include <iomanip>
@@ -23,14 +16,16 @@ namespace graupel
     // and nothing else.
     const std::regex own_files(
       "(parameters\\.prm|log\\.txt|summary\\.json|cases\\.csv|study\\.csv|"
-      "monitors\\.csv|probes\\.csv|wall-forces\\.csv|"
-      "(profiles|radial|midplane)-[0-9]+\\.csv|"
+      "monitors\\.csv|probes\\.csv|wall-forces\\.csv|snapshots\\.csv|"
+      "(profiles|radial|midplane|averages|spectra)-[0-9]+\\.csv|"
+      "averages-(lines|planes|midplane)-[0-9]+\\.csv|"
       "bed-(axial|radial|janssen|coordination|contacts)\\.csv|"
-      "(solution|particles|contacts)\\.pvd|report\\.html|bed\\.bin)");
-    const std::regex own_vtu("(solution|particles|contacts)_[0-9.]+\\.p?vtu");
+      "(solution|averages|particles|contacts)\\.pvd|report\\.html|bed\\.bin)");
+    const std::regex own_vtu("(solution|averages|particles|contacts)_[0-9.]+\\.p?vtu");
     const std::regex own_figures(
       "(pressure-profile|pressure-drop|deviation|bottom-force|bed-height|void-fraction|"
-      "flux|radial|bed-radial|bed-janssen|monitors|cost|probes|particles|study[a-z-]*)"
+      "flux|bubbles|spectra|averages-lines|averages-planes|averages-midplane|radial|bed-"
+      "radial|bed-janssen|monitors|cost|probes|particles|study[a-z-]*)"
       "\\.png");
     const std::regex own_checkpoint("(state|version)\\.bin|fields.*");
 
@@ -46,11 +41,6 @@ namespace graupel
       for (const auto &path : found)
         fs::remove(path);
     }
-
-    // All ranks write into one file: a rank without particles would otherwise leave
-    // a file without points, which ParaView complains about.
-    constexpr unsigned int one_file       = 1;
-    constexpr unsigned int counter_digits = 4;
 
     void
     prepare_directory(const fs::path &directory)
@@ -71,34 +61,6 @@ namespace graupel
         throw std::runtime_error("no file can be made there");
     }
 
-    // Three nodal vectors as one vector of the unknowns of @p vector_nodes.
-    NodalVector
-    as_vector(const NodalSpace            &nodes,
-              const NodalVectorField      &field,
-              const dealii::DoFHandler<3> &vector_nodes)
-    {
-      dealii::IndexSet relevant;
-      dealii::DoFTools::extract_locally_relevant_dofs(vector_nodes, relevant);
-      NodalVector result(
-        vector_nodes.locally_owned_dofs(), relevant, nodes.mesh.communicator());
-      for (const auto &cell : vector_nodes.active_cell_iterators())
-        if (cell->is_locally_owned())
-          {
-            const dealii::DoFHandler<3>::active_cell_iterator scalar_cell(
-              &vector_nodes.get_triangulation(),
-              cell->level(),
-              cell->index(),
-              &nodes.dof_handler);
-            for (const unsigned int v : cell->vertex_indices())
-              for (unsigned int i = 0; i < 3; ++i)
-                if (const auto unknown = cell->vertex_dof_index(v, i);
-                    vector_nodes.locally_owned_dofs().is_element(unknown))
-                  result(unknown) = field[i](scalar_cell->vertex_dof_index(v, 0));
-          }
-      result.update_ghost_values();
-      return result;
-    }
-
     std::string
     numbered(const std::string &name, const unsigned int number)
     {
@@ -115,6 +77,7 @@ namespace graupel
     , monitors(path("monitors.csv"))
     , probes(path("probes.csv"))
     , wall_forces(path("wall-forces.csv"))
+    , snapshots(path("snapshots.csv"))
   {
   }
 
@@ -159,7 +122,7 @@ namespace graupel
   {
     records = earlier;
     if (is_writer)
-      for (GrowingTable *table : {&monitors, &probes, &wall_forces})
+      for (GrowingTable *table : {&monitors, &probes, &wall_forces, &snapshots})
         table->continue_from(time);
   }
 
@@ -261,11 +224,12 @@ namespace graupel
 
   void
   ResultFiles::write_mid_plane(const unsigned int             number,
-                               const std::vector<PlanePoint> &points)
+                               const std::vector<PlanePoint> &points,
+                               const bool                     is_mean)
   {
     if (!is_writer)
       return;
-    auto stream = open(numbered("midplane", number));
+    auto stream = open(numbered(is_mean ? "averages-midplane" : "midplane", number));
     stream << std::setprecision(6) << "x,z,void_fraction,superficial_velocity,pressure\n";
     for (const PlanePoint &point : points)
       stream << point.x << ',' << point.z << ',' << point.void_fraction << ','
@@ -273,81 +237,33 @@ namespace graupel
   }
 
   void
-  ResultFiles::add_fields(const double time, const CoupledFlow &fluid)
-  {
-    add_fields(time, fluid.nodes(), fluid.exchange().medium(), fluid.fluid());
-  }
-
-  void
-  ResultFiles::add_fields(const double      time,
-                          const NodalSpace &nodes,
-                          const Medium     &medium,
-                          const FlowSolver &flow)
-  {
-    dealii::DataOut<3> output;
-    output.attach_dof_handler(nodes.dof_handler);
-    output.add_data_vector(medium.void_fraction, "void_fraction");
-    output.add_data_vector(medium.drag, "drag_coefficient");
-    output.add_data_vector(flow.pressure(), "pressure");
-
-    // The flux as a vector needs unknowns of its own.
-    const dealii::FESystem<3> fe(nodes.fe, 3);
-    dealii::DoFHandler<3>     vector_nodes(nodes.dof_handler.get_triangulation());
-    vector_nodes.distribute_dofs(fe);
-    const NodalVector flux = as_vector(nodes, flow.flux(), vector_nodes);
-    output.add_data_vector(
-      vector_nodes,
-      flux,
-      std::vector<std::string>(3, "flux"),
-      std::vector<dealii::DataComponentInterpretation::DataComponentInterpretation>(
-        3, dealii::DataComponentInterpretation::component_is_part_of_vector));
-    output.build_patches(nodes.mesh.mapping());
-    records.fields.emplace_back(time,
-                                "vtu/" +
-                                  output.write_vtu_with_pvtu_record(directory + "/vtu/",
-                                                                    "solution",
-                                                                    records.fields.size(),
-                                                                    communicator,
-                                                                    counter_digits,
-                                                                    one_file));
-    write_records("solution.pvd", records.fields);
-  }
-
-  void
-  ResultFiles::add_particles(const double time, const Dem &dem)
-  {
-    records.particles.emplace_back(
-      time,
-      "vtu/" + ParticleOutput(dem).write_vtu_with_pvtu_record(directory + "/vtu/",
-                                                              "particles",
-                                                              records.particles.size(),
-                                                              communicator,
-                                                              counter_digits,
-                                                              one_file));
-    write_records("particles.pvd", records.particles);
-  }
-
-  void
-  ResultFiles::add_contacts(const double time, const Dem &dem)
-  {
-    records.contacts.emplace_back(time,
-                                  "vtu/" +
-                                    ContactOutput(dem.contact_states())
-                                      .write_vtu_with_pvtu_record(directory + "/vtu/",
-                                                                  "contacts",
-                                                                  records.contacts.size(),
-                                                                  communicator,
-                                                                  counter_digits,
-                                                                  one_file));
-    write_records("contacts.pvd", records.contacts);
-  }
-
-  void
-  ResultFiles::write_records(const std::string &name, const Records &records) const
+  ResultFiles::add_snapshot(const double                   time,
+                            const unsigned int             number,
+                            const std::vector<PlanePoint> &points)
   {
     if (!is_writer)
       return;
-    auto stream = open(name);
-    dealii::DataOutBase::write_pvd_record(stream, records);
+    std::ostringstream text;
+    text << std::setprecision(6);
+    for (const PlanePoint &point : points)
+      text << (text.tellp() > 0 ? "\n" : "") << time << ',' << number << ',' << point.x
+           << ',' << point.z << ',' << point.void_fraction;
+    snapshots.add("time,case,x,z,void_fraction", text.str());
+  }
+
+  void
+  ResultFiles::write_table(const std::string &name, const std::string &text) const
+  {
+    if (is_writer && !text.empty())
+      open(name) << text;
+  }
+
+  void
+  ResultFiles::write_averages(const unsigned int number, const CaseAverages &averages)
+  {
+    write_table(numbered("averages", number), averages.series_table());
+    write_table(numbered("spectra", number), averages.spectra_table());
+    write_table(numbered("averages-lines", number), averages.lines_table());
+    write_table(numbered("averages-planes", number), averages.planes_table());
   }
 } // namespace graupel

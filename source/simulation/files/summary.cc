@@ -33,6 +33,7 @@ namespace graupel
               {"original_diameter", bed.original_diameter},
               {"vessel_diameter", bed.vessel_diameter},
               {"vessel_height", bed.vessel_height},
+              {"original_void_fraction", to_json(bed.original_void_fraction)},
               {"original_solid_ratio", bed.original_solid_ratio}};
     }
 

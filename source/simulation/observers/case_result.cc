@@ -6,8 +6,12 @@ namespace graupel
   namespace
   {
     // Share of the weight in the fluid that the walls still carry when the bed counts as
-    // lifted: at its onset the paper has 0.016 and 0.028 N of 0.5 N.
-    constexpr double lifted_load = 0.05;
+    // lifted: at its onset the paper has 0.016 and 0.028 N of 0.5 N. A bed that bubbles
+    // comes down again and again, and rubs against walls: it may leave them more.
+    constexpr double lifted_load = 0.05, bubbling_load = 0.2;
+    // Particles move if their kinetic energy is that of a fall through more than this
+    // part of a diameter.
+    constexpr double moving_fall = 0.01;
     // Part of a case, at its end, over which its numbers are means.
     constexpr double averaged_part = 0.25;
     // A bed further above the floor than this part of its height does not stand on it.
@@ -26,19 +30,18 @@ namespace graupel
     const auto n_slabs = static_cast<unsigned int>(std::max(
       10l,
       std::lround(state.parameters.cylinder.height / state.parameters.mesh.cell_size)));
-    axial              = axial_profile(fields(), n_slabs);
+    axial              = axial_profile(fields_of(*state.fluid), n_slabs);
     if (end.bed().exists)
       look_at_middle();
   }
 
   FlowFields
-  CaseView::fields() const
+  fields_of(const CoupledFlow &flow)
   {
-    const CoupledFlow &fluid = *end.state.fluid;
-    return {fluid.nodes(),
-            fluid.exchange().medium().void_fraction,
-            fluid.fluid().flux()[2],
-            fluid.fluid().pressure()};
+    return {flow.nodes(),
+            flow.exchange().medium().void_fraction,
+            flow.fluid().flux()[2],
+            flow.fluid().pressure()};
   }
 
   void
@@ -46,8 +49,9 @@ namespace graupel
   {
     const SimulationState &state = end.state;
     const double           low = end.bed().bottom, high = end.bed().top;
+    const FlowFields       fields = fields_of(*state.fluid);
     const double lower = low + 0.25 * (high - low), upper = low + 0.75 * (high - low);
-    radial = radial_profile(fields(), state.parameters.output.annuli, lower, upper);
+    radial = radial_profile(fields, state.parameters.output.annuli, lower, upper);
     middle_void_fraction = 1. - state.observables.solid_volume_between(lower, upper) /
                                   state.dem.vessel_shape().volume(lower, upper);
     // The slabs must tell the two heights apart.
@@ -56,9 +60,18 @@ namespace graupel
         (pressure_at(axial, lower) - pressure_at(axial, upper)) / (upper - lower);
   }
 
+  SeriesStatistics
+  CaseView::over_window(const std::string &monitor) const
+  {
+    return course.window.empty() ? SeriesStatistics()
+                                 : course.window[place_of(monitor, monitors())];
+  }
+
   Value
   CaseView::mean(const std::string &monitor) const
   {
+    if (!course.window.empty())
+      return over_window(monitor).mean;
     return mean_since(
       course.rows, course.begin + (1. - averaged_part) * course.simulated_time, monitor);
   }
@@ -105,10 +118,45 @@ namespace graupel
     }
 
     std::function<Value(const CaseView &)>
+    rms_of(const std::string &monitor)
+    {
+      return [monitor](const CaseView &flow) { return flow.over_window(monitor).rms; };
+    }
+
+    Value
+    pressure_drop_error(const CaseView &flow)
+    {
+      return flow.over_window("pressure_drop").error;
+    }
+
+    Value
+    pressure_frequency(const CaseView &flow)
+    {
+      return flow.over_window("pressure_drop").frequency;
+    }
+
+    Value
+    averaged_time(const CaseView &flow)
+    {
+      return flow.course.averaged_time > 0. ? Value(flow.course.averaged_time) : Value();
+    }
+
+    std::function<Value(const CaseView &)>
     last_of(const std::string &monitor)
     {
       const std::size_t place = place_of(monitor, monitors());
       return [place](const CaseView &flow) { return monitors()[place].value(flow.end); };
+    }
+
+    // Mean over the window of the averages, as a bed that bubbles has no last state worth
+    // telling; without one, at the end.
+    std::function<Value(const CaseView &)>
+    mean_or_last_of(const std::string &monitor)
+    {
+      const auto last = last_of(monitor);
+      return [monitor, last](const CaseView &flow) {
+        return flow.course.window.empty() ? last(flow) : flow.over_window(monitor).mean;
+      };
     }
 
     // A number of the case's course.
@@ -193,11 +241,22 @@ namespace graupel
     Value
     bed_rise(const CaseView &flow)
     {
-      const auto &bed  = flow.end.bed();
-      const auto &rest = flow.end.state.rest;
-      if (!bed.exists || !rest.height)
+      static const auto height = mean_or_last_of("bed_height"),
+                        bottom = mean_or_last_of("bed_bottom");
+      const auto &rest         = flow.end.state.rest;
+      const Value h = height(flow), b = bottom(flow);
+      if (!h || !b || !rest.height)
         return {};
-      return bed.top - (*rest.bottom + *rest.height);
+      return *b + *h - (*rest.bottom + *rest.height);
+    }
+
+    bool
+    particles_move(const CaseView &flow)
+    {
+      const SimulationState &state  = flow.end.state;
+      const Value            energy = flow.mean("kinetic_energy_per_particle");
+      const double           fall   = moving_fall * state.parameters.simulated_diameter();
+      return energy && *energy > state.dem.weight() / state.dem.n_global() * fall;
     }
 
     Value
@@ -208,7 +267,8 @@ namespace graupel
       if (!state.fluid || !support || state.dem.n_global() == 0)
         return {};
       const double net_weight = state.dem.weight() - state.fluid->buoyancy();
-      return *support <= lifted_load * net_weight ? 1. : 0.;
+      const double load       = particles_move(flow) ? bubbling_load : lifted_load;
+      return *support <= load * net_weight ? 1. : 0.;
     }
   } // namespace
 
@@ -233,6 +293,24 @@ namespace graupel
        mean_of("pressure_drop"),
        "pressure drop",
        "Pa"},
+      {"pressure_drop_rms",
+       "Pa",
+       "rms of the pressure drop about its mean over the window of `Averages`; empty "
+       "without one, as in the next three",
+       rms_of("pressure_drop"),
+       "rms",
+       "Pa"},
+      {"pressure_drop_error",
+       "Pa",
+       "statistical (standard) error of that mean, by blocks",
+       pressure_drop_error},
+      {"pressure_frequency",
+       "Hz",
+       "where the spectrum of the pressure drop is highest",
+       pressure_frequency,
+       "frequency",
+       "Hz"},
+      {"averaged_time", "s", "time of the window that the case had", averaged_time},
       {"ergun_pressure_drop", "Pa", "Ergun's value", ergun_drop, "Ergun", "Pa"},
       {"deviation_from_ergun",
        "-",
@@ -249,17 +327,31 @@ namespace graupel
        "%",
        100.},
       {"wall_channelling_deviation", "-", "wall-channelling deviation", wall_channelling},
-      {"bed_height", "m", "bed height", last_of("bed_height"), "bed height", "mm", 1e3},
+      {"bed_height",
+       "m",
+       "bed height at the end; over a window of `Averages` its mean, as in the next two "
+       "and the mean void fraction",
+       mean_or_last_of("bed_height"),
+       "bed height",
+       "mm",
+       1e3},
       {"bed_bottom",
        "m",
        "where the bed begins, over the vessel's bottom",
-       last_of("bed_bottom")},
+       mean_or_last_of("bed_bottom")},
       {"expanded_height",
        "m",
        "bed height that does not jump where bubbles and slugs pass, mean",
        mean_of("expanded_height")},
+      {"expanded_height_rms",
+       "m",
+       "rms of the same about its mean over a window of `Averages`; empty without one",
+       rms_of("expanded_height")},
       {"bed_rise", "m", "top of the bed less that before the flow", bed_rise},
-      {"mean_void_fraction", "-", "mean void fraction", last_of("mean_void_fraction")},
+      {"mean_void_fraction",
+       "-",
+       "mean void fraction",
+       mean_or_last_of("mean_void_fraction")},
       {"bottom_force", "N", "bottom force", mean_of("bottom_force"), "bottom force", "N"},
       {"wall_force", "N", "wall force", mean_of("wall_force")},
       {"support_force",
@@ -281,7 +373,11 @@ namespace graupel
        last_of("fed_particles")},
       {"fluidized",
        "flag",
-       "the bed has lifted",
+       "the bed has lifted: in the mean the walls carry at most a twentieth of the "
+       "weight "
+       "in the fluid; or at most a fifth while the particles move, with the kinetic "
+       "energy "
+       "of a fall through more than a hundredth of a diameter",
        fluidized,
        "the bed has lifted",
        "flag"},

@@ -76,6 +76,14 @@ namespace graupel
     }
 
     Value
+    center_of_mass(const Moment &now)
+    {
+      if (now.state.dem.n_global() == 0)
+        return {};
+      return now.state.observables.center_of_mass();
+    }
+
+    Value
     mean_void_fraction(const Moment &now)
     {
       return now.bed().exists ? Value(now.bed().mean_void_fraction) : Value();
@@ -201,6 +209,10 @@ namespace graupel
        "m",
        "bed height that does not jump where bubbles and slugs pass",
        expanded_height},
+      {"center_of_mass",
+       "m",
+       "height of the center of mass of the particles",
+       center_of_mass},
       {"mean_void_fraction", "-", "mean void fraction", mean_void_fraction},
       {"bottom_force", "N", "bottom force", bottom_force},
       {"wall_force", "N", "wall force", wall_force},

@@ -21,14 +21,26 @@ namespace graupel
   {
   }
 
+  std::vector<std::pair<std::string, std::string>>
+  probe_columns(const std::vector<ProbePoint> &points)
+  {
+    std::vector<std::pair<std::string, std::string>> columns;
+    for (const ProbePoint &point : points)
+      {
+        columns.emplace_back(point.name + "_pressure", "Pa");
+        columns.emplace_back(point.name + "_void_fraction", "-");
+        for (const char *direction : {"x", "y", "z"})
+          columns.emplace_back(point.name + "_velocity_" + direction, "m/s");
+      }
+    return columns;
+  }
+
   std::string
   Probes::header() const
   {
     std::string text = "time";
-    for (const ProbePoint &point : points)
-      for (const char *quantity :
-           {"pressure", "void_fraction", "velocity_x", "velocity_y", "velocity_z"})
-        text += "," + point.name + "_" + quantity;
+    for (const auto &column : probe_columns(points))
+      text += "," + column.first;
     return text;
   }
 
@@ -49,8 +61,8 @@ namespace graupel
       outside.empty(), parameter, "the probe " + outside + " lies outside the mesh");
   }
 
-  std::string
-  Probes::row(const SimulationState &state)
+  void
+  Probes::look(const SimulationState &state)
   {
     if (!places.is_ready())
       find_points(state.mesh);
@@ -65,14 +77,24 @@ namespace graupel
     for (unsigned int i = 0; i < 3; ++i)
       flux[i] = at(fluid.fluid().flux()[i]);
 
-    std::ostringstream text;
-    text << std::setprecision(10) << state.time;
+    // The points are the first rank's.
+    seen.clear();
     for (unsigned int n = 0; n < alpha.size(); ++n)
       {
-        text << ',' << pressure[n] << ',' << alpha[n];
+        seen.insert(seen.end(), {pressure[n], alpha[n]});
         for (unsigned int i = 0; i < 3; ++i)
-          text << ',' << flux[i][n] / alpha[n];
+          seen.push_back(flux[i][n] / alpha[n]);
       }
+    seen = dealii::Utilities::MPI::broadcast(state.communicator, seen, 0);
+  }
+
+  std::string
+  Probes::row(const double time) const
+  {
+    std::ostringstream text;
+    text << std::setprecision(10) << time;
+    for (const double value : seen)
+      text << ',' << value;
     return text.str();
   }
 } // namespace graupel

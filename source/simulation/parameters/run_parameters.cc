@@ -1,5 +1,6 @@
 #include <graupel/base/parameters.h>
 #include <graupel/closures/bed_correlations.h>
+#include <graupel/dem/bed/wall_layer.h>
 #include <graupel/simulation/parameters/probe_points.h>
 #include <graupel/simulation/parameters/run_parameters.h>
 
@@ -31,6 +32,7 @@ namespace graupel
     original_bed.declare(prm);
     flow.declare(prm);
     sweep.declare(prm);
+    averages.declare(prm);
     output.declare(prm);
     study.declare(prm);
     manufactured.declare(prm);
@@ -55,6 +57,7 @@ namespace graupel
     drag.check(dem.particles.scale, dem.mean_original_diameter());
     flow.check();
     sweep.check();
+    check_averages();
     output.check();
     study.check();
     manufactured.check();
@@ -92,8 +95,15 @@ namespace graupel
   RunParameters::check_original_bed() const
   {
     original_bed.check();
-    if (original_bed.void_fraction != "measured")
-      return;
+    if (original_bed.void_fraction == "measured")
+      check_measured_bed();
+    if (original_bed.void_fraction == "correlation")
+      check_wall_layer();
+  }
+
+  void
+  RunParameters::check_measured_bed() const
+  {
     const RunParameters original = of_original_bed();
     try
       {
@@ -107,6 +117,58 @@ namespace graupel
              << cylinder.height << " m (" << error.what() << ")";
         throw InputError("Original bed/measured height", text.str());
       }
+  }
+
+  void
+  RunParameters::check_averages() const
+  {
+    averages.check();
+    require(
+      !averages.are_wanted() || adaption.interval <= 0.,
+      "Averages/to",
+      "means over time are taken at the nodes of one mesh, and Mesh adaption/interval "
+      "changes it; set that to 0, or this, for no averages");
+    if (!averages.are_wanted() || sweep.stop_when == "steady")
+      return;
+    for (const auto &velocity : sweep.cases())
+      {
+        const double duration =
+          sweep.case_duration(velocity.value_or(0.), cylinder.height);
+        std::ostringstream reason;
+        reason << "a case ends after " << duration
+               << " s, before the window of its averages begins; choose an earlier one, "
+                  "or longer cases by Flow/duration";
+        require(sweep.mode == "steady" || sweep.mode == "automatic" ||
+                  duration > averages.from,
+                "Averages/from",
+                reason.str());
+      }
+  }
+
+  void
+  RunParameters::check_wall_layer() const
+  {
+    const auto refused_if = [](const bool is_so, const std::string &reason) {
+      require(!is_so,
+              "Original bed/void fraction",
+              "the correlation follows the layer at the wall of a cylinder, but " +
+                reason + "; choose measured, or the void fraction itself");
+    };
+    refused_if(dem.walls.from_mesh ||
+                 !Vessel(cylinder, dem.walls.walls(cylinder)).is_tube(),
+               "other walls cut this one");
+    refused_if(cylinder.diameter < narrowest_tube * simulated_diameter(),
+               "this one is less than three simulated particles across");
+    refused_if(!common_scale(), "the types of particles have several scales");
+  }
+
+  std::optional<double>
+  RunParameters::common_scale() const
+  {
+    for (const ParticleType &type : dem.types())
+      if (type.scale != dem.particles.scale)
+        return {};
+    return dem.particles.scale;
   }
 
   double

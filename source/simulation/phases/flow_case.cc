@@ -16,14 +16,14 @@ namespace graupel
       double              wall_seconds = 0., cpu_seconds = 0.;
       std::vector<double> times;
       std::vector<double> values; // of all rows, one after the other
-      std::string         strategy;
+      std::string         strategy, averages;
 
       template <class Archive>
       void
       serialize(Archive &archive, const unsigned int)
       {
         archive &begin &ramp_from &wall_seconds &cpu_seconds;
-        archive &times &values                  &strategy;
+        archive &times &values &strategy        &averages;
       }
     };
   } // namespace
@@ -46,6 +46,7 @@ namespace graupel
                           state.parameters.sweep.steady_tolerance,
                           state.dem.weight())}
     , strategy(make_strategy(frame))
+    , averages(state)
     , wall_start(Progress::steady_seconds())
     , cpu_start(state.cpu_seconds())
   {
@@ -78,6 +79,7 @@ namespace graupel
         if (frame.velocity)
           state.start_fluid();
       }
+    averages.begin();
     start_progress();
   }
 
@@ -104,8 +106,29 @@ namespace graupel
   void
   FlowCase::note(const MonitorRow &row)
   {
+    keep(row);
+    if (state.parameters.averages.are_wanted())
+      average(row);
+  }
+
+  void
+  FlowCase::keep(const MonitorRow &row)
+  {
     rows.push_back(row);
     frame.steady.record(row);
+  }
+
+  void
+  FlowCase::average(const MonitorRow &row)
+  {
+    const CostSheet::Scope timing(state.costs, CostSheet::output);
+    const double before = rows.size() > 1 ? rows[rows.size() - 2].time - frame.begin : 0.;
+    averages.record(row, frame.begin, series.probes);
+    if (state.fluid && state.parameters.averages.is_snapshot_due(before, frame.time()))
+      files.add_snapshot(
+        state.time,
+        number,
+        mid_plane(fields_of(*state.fluid), state.parameters.output.midplane_points));
   }
 
   void
@@ -125,7 +148,9 @@ namespace graupel
                             strategy->is_steady() || frame.steady.is_steady(),
                             Progress::steady_seconds() - wall_start,
                             cpu,
-                            rows};
+                            rows,
+                            averages.averaged_time(),
+                            averages.statistics()};
     const Moment     last = moment();
     const CaseView   view(last, course);
     CaseResult       result;
@@ -146,13 +171,42 @@ namespace graupel
         files.write_axial(number, view, result);
         files.write_radial(number, view.radial, state.parameters.cylinder.diameter / 2.);
         files.write_mid_plane(
-          number, mid_plane(view.fields(), state.parameters.output.midplane_points));
+          number,
+          mid_plane(fields_of(*state.fluid), state.parameters.output.midplane_points));
         files.add_fields(state.time, *state.fluid);
       }
     files.add_particles(state.time, state.dem);
     if (state.parameters.output.force_chains)
       files.add_contacts(state.time, state.dem);
     files.write_cases(series.results);
+    if (state.parameters.averages.are_wanted())
+      write_averages();
+  }
+
+  void
+  FlowCase::write_averages()
+  {
+    const AveragesParameters &window = state.parameters.averages;
+    if (!window.has_ended(frame.time()))
+      {
+        std::ostringstream text;
+        text << "warning: the case ended after " << frame.time() << " s: means are over "
+             << averages.averaged_time() << " s of the window from " << window.from
+             << " to " << window.to << " s";
+        state.progress.say(text.str());
+      }
+    files.write_averages(number, averages);
+    if (!state.fluid || state.averages.averaged_time() == 0.)
+      return;
+    const NodalSpace &nodes = state.fluid->nodes();
+    files.add_averages(state.time, nodes, state.averages);
+    files.write_mid_plane(number,
+                          mid_plane({nodes,
+                                     state.averages.mean(FieldAverages::void_fraction),
+                                     state.averages.mean(FieldAverages::flux + 2),
+                                     state.averages.mean(FieldAverages::pressure)},
+                                    state.parameters.output.midplane_points),
+                          true);
   }
 
   std::string
@@ -171,6 +225,7 @@ namespace graupel
           saved.values.push_back(value);
       }
     saved.strategy = strategy->save();
+    saved.averages = averages.save();
     return to_bytes(saved);
   }
 
@@ -190,8 +245,9 @@ namespace graupel
         MonitorRow row{time, kind(), number, {}};
         row.values = Values::of_numbers({value, value + monitors().size()});
         value += monitors().size();
-        note(row);
+        keep(row);
       }
+    averages.resume(saved.averages);
     start_progress();
   }
 } // namespace graupel

@@ -1,4 +1,4 @@
-#include <graupel/closures/bed_correlations.h>
+#include <graupel/base/parameters.h>
 #include <graupel/simulation/phases/original_bed.h>
 #include <graupel/simulation/phases/packing_phases.h>
 
@@ -10,6 +10,9 @@ namespace graupel
   namespace
   {
     const char *const bed_name = "original bed: ";
+    const char *const no_wall_layer =
+      "the correlation follows the layer at the wall of the settled bed, but there is no "
+      "bed, or other walls are in it now; choose measured, or the void fraction itself";
 
     void
     run_whole(Phase &phase)
@@ -45,11 +48,12 @@ namespace graupel
   }
 
   double
-  original_solid_ratio(const RunParameters       &parameters,
-                       const BedObservables::Bed &bed,
-                       Progress                  &progress,
-                       CostSheet                 &costs,
-                       MPI_Comm                   communicator)
+  original_solid_ratio(const RunParameters                  &parameters,
+                       const BedObservables::Bed            &bed,
+                       const std::optional<OriginalPacking> &packing,
+                       Progress                             &progress,
+                       CostSheet                            &costs,
+                       MPI_Comm                              communicator)
   {
     const auto &choice = parameters.original_bed;
     if (choice.void_fraction == "simulated" || !bed.exists)
@@ -59,12 +63,8 @@ namespace graupel
       ratio = (1. - *given) / (1. - bed.mean_void_fraction);
     else if (choice.void_fraction == "correlation")
       {
-        const double original =
-          parameters.cylinder.diameter / parameters.dem.mean_original_diameter();
-        const double simulated =
-          parameters.cylinder.diameter / parameters.simulated_diameter();
-        ratio = (1. - benyahia_oneill_void_fraction(original)) /
-                (1. - benyahia_oneill_void_fraction(simulated));
+        require(packing.has_value(), "Original bed/void fraction", no_wall_layer);
+        ratio = packing->solid_ratio;
       }
     else
       ratio = measure_original_bed(parameters, progress, costs, communicator) /

@@ -15,11 +15,13 @@ namespace graupel
   } // namespace
 
   CoupledFlow::CoupledFlow(const RunParameters &parameters,
+                           const double         original_diameter,
                            const double         solid_ratio,
                            VesselMesh          &mesh,
                            Dem                 &dem,
                            CostSheet           &costs)
     : parameters(parameters)
+    , original_diameter(original_diameter)
     , solid_ratio(solid_ratio)
     , mesh(mesh)
     , dem(dem)
@@ -53,10 +55,9 @@ namespace graupel
     std::vector<DragOfType> drags;
     AddedForceLaws          added{parameters.forces, parameters.fluid, {}};
     const bool              is_mixture = parameters.coupling.mixture == "sauter mean";
-    const double            sauter     = dem.original_sauter_diameter();
     for (const auto &type : parameters.dem.types())
       {
-        const double diameter = is_mixture ? sauter : type.diameter;
+        const double diameter = is_mixture ? original_diameter : type.diameter;
         drags.push_back({Drag(parameters.drag, parameters.fluid, diameter, type.scale),
                          0.5 * type.scale * diameter,
                          is_mixture});
@@ -107,7 +108,7 @@ namespace graupel
     particles_and_fluid.reset();
     solver.reset();
     dem.adapt_mesh(cell_share);
-    node_space->dof_handler.distribute_dofs(node_space->fe);
+    node_space->number_nodes();
 
     const NodalSpace           fresh(mesh);
     std::array<NodalVector, 4> fields;
@@ -142,15 +143,11 @@ namespace graupel
   }
 
   void
-  CoupledFlow::save(const std::string &file) const
+  CoupledFlow::load(const FlowHistory           &history,
+                    const VesselMesh::CellBytes &bytes,
+                    const double                 stable_step)
   {
-    solver->save(file);
-  }
-
-  void
-  CoupledFlow::load(const FlowHistory &history, const double stable_step)
-  {
-    solver->restore(history);
+    solver->restore(history, bytes);
     superficial_velocity = history.last_velocity;
     look_at_bed();
     // The slip of the next drag is that of the last step, through the bed as it was then.

@@ -36,7 +36,8 @@ namespace graupel
   void
   SimulationState::make_fluid()
   {
-    fluid.emplace(parameters, rest.original_solid_ratio, mesh, dem, costs);
+    fluid.emplace(
+      parameters, rest.original_diameter, rest.original_solid_ratio, mesh, dem, costs);
   }
 
   void
@@ -76,8 +77,8 @@ namespace graupel
   BedObservables::Bed
   SimulationState::bed() const
   {
-    return parameters.dem.particles.gravity_is_axial() ? observables.bed() :
-                                                         BedObservables::Bed();
+    return parameters.dem.particles.gravity_is_axial() ? observables.bed()
+                                                       : BedObservables::Bed();
   }
 
   double

@@ -1,21 +1,13 @@
 #include <graupel/base/parameters.h>
+#include <graupel/base/read_numbers.h>
 #include <graupel/simulation/studies/study_levels.h>
 
-#include <iomanip>
 #include <sstream>
 
 namespace graupel
 {
   namespace
   {
-    std::string
-    text_of(const double value)
-    {
-      std::ostringstream text;
-      text << std::setprecision(17) << value;
-      return text.str();
-    }
-
     // The same mass of particles of another scale; the filter follows them.
     void
     set_scale(RunParameters &parameters, const double scale)
@@ -24,11 +16,12 @@ namespace graupel
       auto        &count  = parameters.filling.count;
       count = static_cast<unsigned int>(std::lround(count / std::pow(growth, 3)));
       if (parameters.coupling.filter_length != "auto")
-        parameters.coupling.filter_length = text_of(parameters.filter_length() * growth);
+        parameters.coupling.filter_length =
+          text_of(parameters.filter_length() * growth, 17);
       for (ParticleType &type : parameters.dem.particles.further_types)
         type.scale *= growth;
       parameters.dem.particles.scale      = scale;
-      parameters.texts["Particles/scale"] = text_of(scale);
+      parameters.texts["Particles/scale"] = text_of(scale, 17);
     }
 
     RunParameters
@@ -44,7 +37,7 @@ namespace graupel
       else if (parameters.study.vary == "scale")
         set_scale(parameters, value);
       else if (parameters.study.vary == "filter length")
-        parameters.coupling.filter_length = text_of(value);
+        parameters.coupling.filter_length = text_of(value, 17);
       return parameters;
     }
   } // namespace

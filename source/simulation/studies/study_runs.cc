@@ -1,3 +1,4 @@
+#include <graupel/closures/bed_correlations.h>
 #include <graupel/simulation/files/result_files.h>
 #include <graupel/simulation/studies/study_runs.h>
 
@@ -12,6 +13,48 @@ namespace graupel
     {
       return std::cbrt(volume / cells);
     }
+
+    // Ergun's value of the bed that the same mass of original particles would make [Pa].
+    Value
+    ergun_of_originals(const RunParameters &parameters,
+                       const BedResult     &bed,
+                       const Value         &velocity)
+    {
+      if (!bed.original_void_fraction || !velocity)
+        return {};
+      const double solid_height = (1. - *bed.mean_void_fraction) * *bed.height;
+      return ergun_pressure_drop(parameters.fluid,
+                                 bed.original_diameter,
+                                 *bed.original_void_fraction,
+                                 *velocity,
+                                 solid_height / (1. - *bed.original_void_fraction));
+    }
+
+    // The drop differs from scale to scale as the void fraction does, which each bed
+    // tells of the original one; what is left of it over Ergun's value is smooth.
+    void
+    add_drop(const RunParameters      &parameters,
+             const Summary            &summary,
+             const CaseResult         &flow,
+             const std::string        &at,
+             std::vector<Measurement> &measurements)
+    {
+      Measurement drop{"pressure drop" + at + " [Pa]", flow["pressure_drop"]};
+      const Value ergun =
+        ergun_of_originals(parameters, summary.bed, flow["superficial_velocity"]);
+      const Value &deviation = flow["deviation_from_ergun"];
+      if (!ergun || !deviation || parameters.original_bed.void_fraction != "simulated")
+        {
+          measurements.push_back(drop);
+          return;
+        }
+      Measurement over{"pressure drop over Ergun's" + at + " [-]", 1. + *deviation};
+      Measurement original{"Ergun's value of the original bed" + at + " [Pa]", ergun};
+      original.at_scale_one = AtScaleOne::mean;
+      drop.at_scale_one     = AtScaleOne::product;
+      drop.factors          = {over.quantity, original.quantity};
+      measurements.insert(measurements.end(), {drop, over, original});
+    }
   } // namespace
 
   LevelResult
@@ -23,16 +66,18 @@ namespace graupel
     result.time_step     = parameters.sweep.time_step;
     result.filter_length = parameters.filter_length();
     result.scale         = parameters.dem.particles.scale;
-    result.measurements.push_back(
-      {"mean void fraction at rest [-]", summary.bed.mean_void_fraction});
+    Measurement original{"void fraction of the original bed [-]",
+                         summary.bed.original_void_fraction};
+    original.at_scale_one = AtScaleOne::mean;
+    result.measurements   = {
+        {"mean void fraction at rest [-]", summary.bed.mean_void_fraction}, original};
     for (const CaseResult &flow : summary.cases)
       {
         std::ostringstream at;
         if (const Value &velocity = flow["nominal_velocity"])
           at << " at " << *velocity << " m/s";
         const Value &gradient = flow["gradient_deviation_from_ergun"];
-        result.measurements.push_back(
-          {"pressure drop" + at.str() + " [Pa]", flow["pressure_drop"]});
+        add_drop(parameters, summary, flow, at.str(), result.measurements);
         result.measurements.push_back({"middle gradient over Ergun's" + at.str() + " [-]",
                                        gradient ? Value(1. + *gradient) : Value()});
         result.measurements.push_back(

@@ -1,17 +1,13 @@
 #ifndef graupel_dem_bed_bed_observables_h
 #define graupel_dem_bed_bed_observables_h
 
-#include <graupel/dem/particles/particle_arrays.h>
+#include <graupel/dem/bed/solid_below.h>
 #include <graupel/dem/vessel/vessel.h>
 
 #include <vector>
 
 namespace graupel
 {
-  /** Volume of the part of a sphere below a plane that is @p height above its lowest
-   * point [m^3]. */
-  double sphere_volume_below(const double radius, const double height);
-
   /**
    * What the particles as a bed look like from outside. All sums run over all
    * ranks and are exact: the same on any number of ranks.
@@ -25,14 +21,12 @@ namespace graupel
                    const Vessel         &vessel,
                    MPI_Comm              communicator);
 
-    /**
-     * Volume of solid below each of the ascending planes z = @p planes [m^3], spheres
-     * cut exactly. Collective.
-     */
-    std::vector<double> solid_volume_below(const std::vector<double> &planes) const;
-
     /** Volume of solid between two planes [m^3]. Collective. */
     double solid_volume_between(const double lower, const double upper) const;
+
+    /** Height of the center of mass of all particles [m]; not a number without any.
+     * Collective. */
+    double center_of_mass() const;
 
     /**
      * Solid fraction [-] of the vessel between neighbouring ones of the ascending
@@ -52,8 +46,9 @@ namespace graupel
       double bottom = 0.;
       /**
        * Where the solid fraction, averaged over a slab of one particle
-       * diameter, falls to half of its bulk value; the ceiling for a bed that hangs
-       * there [m].
+       * diameter, falls to half of its bulk value for good: a gap that a bubble or slug
+       * makes ends the bed only if less than 5 % of the solid is above it, or nothing as
+       * dense. The ceiling for a bed that hangs there [m].
        */
       double top = 0.;
       /** From bottom to top [m]; 0 without a bed. */
@@ -78,31 +73,31 @@ namespace graupel
       double mean_void_fraction = 1.;
     };
 
-    /**
-     * Finds the bed. The top is the lowest place above the middle of the solid
-     * that meets the definition, so that particles that fall from above do not
-     * raise it. Collective.
-     */
+    /** Finds the bed. Particles that fall from above do not raise its top. Collective. */
     Bed bed() const;
 
   private:
     struct Profile;
 
-    double  largest_radius() const;
     double  area_near(const double z) const;
-    Profile profile(const double slab) const;
+    Profile profile(const SolidBelow &exact) const;
     Bed     standing_bed(const Profile &solid) const;
     bool    hangs(const Profile &solid) const;
     Bed     hanging_bed(const Profile &solid) const;
-    bool    measure_middle(Bed &bed) const;
+    bool    measure_middle(const Profile &solid, Bed &bed) const;
     double  expanded_height(const Profile &solid) const;
     // Where, from start on upwards or downwards, the slab's fraction falls below the
-    // threshold.
-    double edge_of_bed(const double start,
-                       const double threshold,
-                       const double slab,
-                       const bool   upwards) const;
-    double slab_fraction(const double middle, const double slab) const;
+    // threshold for good.
+    double edge_of_bed(const Profile &solid,
+                       const double   start,
+                       const double   threshold,
+                       const bool     upwards) const;
+    double edge_between(const Profile &solid,
+                        double         bed,
+                        double         beyond,
+                        const double   threshold) const;
+    double slab_fraction(const Profile &solid, const double middle) const;
+    double fraction_at_level(const Profile &solid, const std::size_t k) const;
 
     const ParticleArrays &particles;
     const Vessel         &vessel;

@@ -1,6 +1,8 @@
 #ifndef graupel_dem_bed_sphere_cuts_h
 #define graupel_dem_bed_sphere_cuts_h
 
+#include <array>
+
 namespace graupel
 {
   /**
@@ -23,6 +25,19 @@ namespace graupel
                                const double R,
                                const double lower,
                                const double upper);
+
+  /**
+   * Volume [m^3] of that part of a sphere of radius @p r which lies inside a box with
+   * the corners @p lower and @p upper, as seen from its center. Closed form, to rounding
+   * relative to the sphere.
+   *
+   * Signed sum of the parts of the sphere beyond each corner; beyond planes that meet at
+   * right angles they follow by integrating segments of circles. Strobl, Formella &
+   * Poeschel (2016), doi:10.1016/j.jcp.2016.02.003, have the case of any planes.
+   */
+  double sphere_volume_in_box(const double                 r,
+                              const std::array<double, 3> &lower,
+                              const std::array<double, 3> &upper);
 } // namespace graupel
 
 #endif

@@ -33,9 +33,11 @@ namespace graupel
     /** V of the flow case that comes or goes on [m/s]. */
     Value velocity;
 
-    bool        has_fluid = false;
-    FlowHistory fluid;
-    double      stable_step = 0.; // CoupledFlow::stable_step() [s]
+    bool                      has_fluid = false;
+    FlowHistory               fluid;
+    double                    stable_step   = 0.; // CoupledFlow::stable_step() [s]
+    double                    averaged_time = 0.; // FieldAverages::averaged_time() [s]
+    std::vector<unsigned int> partition;          // of the mesh
   };
 
   /**

@@ -4,6 +4,7 @@
 #include <graupel/dem/bed/bed_profiles.h>
 #include <graupel/fluid/flow_solver.h>
 #include <graupel/simulation/files/growing_table.h>
+#include <graupel/simulation/observers/case_averages.h>
 #include <graupel/simulation/observers/case_result.h>
 #include <graupel/simulation/observers/profiles.h>
 
@@ -37,7 +38,7 @@ namespace graupel
     /** The times and files of the ParaView series so far. */
     struct Written
     {
-      Records fields, particles, contacts;
+      Records fields, particles, contacts, averages;
     };
 
     const Written &
@@ -80,9 +81,20 @@ namespace graupel
                       const std::vector<RegionMean> &profile,
                       const double                   radius);
 
-    /** midplane-NN.csv. */
+    /** midplane-NN.csv; of means over time, averages-midplane-NN.csv. */
     void write_mid_plane(const unsigned int             number,
-                         const std::vector<PlanePoint> &points);
+                         const std::vector<PlanePoint> &points,
+                         const bool                     is_mean = false);
+
+    /** The void fraction at @p points at @p time [s], behind earlier ones in
+     * snapshots.csv. */
+    void add_snapshot(const double                   time,
+                      const unsigned int             number,
+                      const std::vector<PlanePoint> &points);
+
+    /** The tables of @p averages, with NN of the flow case @p number; none of what there
+     * is none of. */
+    void write_averages(const unsigned int number, const CaseAverages &averages);
 
     /**
      * bed-axial.csv, bed-radial.csv, bed-janssen.csv, bed-coordination.csv and
@@ -99,6 +111,11 @@ namespace graupel
                     const Medium     &medium,
                     const FlowSolver &flow);
 
+    /** Adds the means over time up to @p time [s] to averages.pvd. Collective. */
+    void add_averages(const double         time,
+                      const NodalSpace    &nodes,
+                      const FieldAverages &averages);
+
     /** Adds the particles at @p time [s] to particles.pvd. Collective. */
     void add_particles(const double time, const Dem &dem);
 
@@ -109,7 +126,15 @@ namespace graupel
     std::string path(const std::string &name) const;
 
   private:
-    void          open_log(const std::ios::openmode mode);
+    void open_log(const std::ios::openmode mode);
+    // Writes the ParaView files of @p output, the next ones of @p records, whose names
+    // begin with @p stem.
+    template <class Output>
+    void          add_record(const double       time,
+                             const std::string &stem,
+                             const Output      &output,
+                             Records           &records);
+    void          write_table(const std::string &name, const std::string &text) const;
     void          write_parameters(const dealii::ParameterHandler &prm);
     std::ofstream open(const std::string &name) const;
     void          write_records(const std::string &name, const Records &records) const;
@@ -118,7 +143,7 @@ namespace graupel
     const MPI_Comm    communicator;
     const bool        is_writer;
     std::ofstream     log_stream;
-    GrowingTable      monitors, probes, wall_forces;
+    GrowingTable      monitors, probes, wall_forces, snapshots;
     Written           records;
   };
 } // namespace graupel

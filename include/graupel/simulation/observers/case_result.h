@@ -1,7 +1,7 @@
 #ifndef graupel_simulation_observers_case_result_h
 #define graupel_simulation_observers_case_result_h
 
-#include <graupel/simulation/observers/monitors.h>
+#include <graupel/simulation/observers/case_averages.h>
 #include <graupel/simulation/observers/profiles.h>
 
 namespace graupel
@@ -19,7 +19,14 @@ namespace graupel
     double cpu_seconds    = 0.;    // of all ranks [s]
     /** Of all its steps. */
     std::vector<MonitorRow> rows;
+    /** Of the window of "Averages" that the case had [s]. */
+    double averaged_time = 0.;
+    /** CaseAverages::statistics(). */
+    std::vector<SeriesStatistics> window = {};
   };
+
+  /** Of @p flow as it is now. */
+  FlowFields fields_of(const CoupledFlow &flow);
 
   /**
    * A flow case at its end, as the quantities of cases.csv see it: the last moment, the
@@ -34,8 +41,12 @@ namespace graupel
     const Moment     &end;
     const CaseCourse &course;
 
-    /** Mean of a monitor over the last quarter of the case. */
+    /** Mean of a monitor over the window of "Averages"; without one, over the last
+     * quarter of the case. */
     Value mean(const std::string &monitor) const;
+
+    /** What a monitor comes to over the window; nothing without one. */
+    SeriesStatistics over_window(const std::string &monitor) const;
 
     /** The bed now, if it stands on the floor of the vessel or near it; or the one before
      * the flow if all of its particles are there still but no bed can be made out; else
@@ -55,9 +66,6 @@ namespace graupel
     /** Pressure gradient over the middle half of the bed, positive where the pressure
      * falls upwards [Pa/m]. */
     Value middle_gradient;
-
-    /** Of the fluid, which there must be. */
-    FlowFields fields() const;
 
     /** Upward superficial velocity at the height @p z [m/s]. Collective. */
     double velocity_at(const double z) const;

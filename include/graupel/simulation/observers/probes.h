@@ -8,6 +8,11 @@
 
 namespace graupel
 {
+  /** Names and units of what is seen at @p points: NAME_pressure [Pa],
+   * NAME_void_fraction [-], NAME_velocity_x, _y, _z [m/s] of each. */
+  std::vector<std::pair<std::string, std::string>> probe_columns(
+    const std::vector<ProbePoint> &points);
+
   /**
    * Pressure, void fraction and interstitial velocity of the fluid at points, linear
    * within the cells.
@@ -23,20 +28,30 @@ namespace graupel
       return !points.empty();
     }
 
-    /** Columns of probes.csv: time, then NAME_pressure [Pa], NAME_void_fraction [-],
-     * NAME_velocity_x, _y, _z [m/s] of each point. */
+    /** Columns of probes.csv: time, then those of probe_columns(). */
     std::string header() const;
 
     /**
-     * The row of @p state, on rank 0. Throws InputError("Output/probes", ...) for a point
-     * outside of the mesh. Collective.
+     * Looks at the fluid of @p state, which there must be. Throws
+     * InputError("Output/probes", ...) for a point outside of the mesh. Collective.
      */
-    std::string row(const SimulationState &state);
+    void look(const SimulationState &state);
+
+    /** What the last look() saw, by column; the same on every rank. */
+    const std::vector<double> &
+    values() const
+    {
+      return seen;
+    }
+
+    /** Their row of probes.csv at @p time [s]. */
+    std::string row(const double time) const;
 
   private:
     void find_points(const VesselMesh &mesh);
 
     const std::vector<ProbePoint>                    points;
+    std::vector<double>                              seen;
     dealii::Utilities::MPI::RemotePointEvaluation<3> places;
   };
 } // namespace graupel

@@ -7,6 +7,7 @@
 #include <graupel/dem/packing/settling.h>
 #include <graupel/fluid/manufactured_solution.h>
 #include <graupel/mesh/adaption.h>
+#include <graupel/simulation/parameters/averages_parameters.h>
 #include <graupel/simulation/parameters/original_bed_parameters.h>
 #include <graupel/simulation/parameters/study_parameters.h>
 #include <graupel/simulation/parameters/sweep_parameters.h>
@@ -30,6 +31,7 @@ namespace graupel
     OriginalBedParameters  original_bed;
     FlowParameters         flow;
     SweepParameters        sweep;
+    AveragesParameters     averages;
     OutputParameters       output;
     StudyParameters        study;
     ManufacturedParameters manufactured;
@@ -45,6 +47,8 @@ namespace graupel
 
     /** Diameter of a simulated particle [m]. */
     double simulated_diameter() const;
+    /** The scale of all types; none if they have several [-]. */
+    std::optional<double> common_scale() const;
     /** Filter length in use [m]. */
     double filter_length() const;
 
@@ -59,6 +63,9 @@ namespace graupel
 
   private:
     void check_original_bed() const;
+    void check_averages() const;
+    void check_measured_bed() const;
+    void check_wall_layer() const;
   };
 } // namespace graupel
 

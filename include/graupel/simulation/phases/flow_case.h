@@ -15,7 +15,8 @@ namespace graupel
     /** What the cases of a run hand on to each other. */
     struct Series
     {
-      Feeds feeds;
+      Feeds  feeds;
+      Probes probes;
       /** Those that have ended. */
       std::vector<CaseResult> results;
       /** V at the end of the last one [m/s]. */
@@ -54,7 +55,10 @@ namespace graupel
 
   private:
     void start_progress();
+    void keep(const MonitorRow &row);
+    void average(const MonitorRow &row);
     void write_results(const CaseView &view, const CaseResult &result);
+    void write_averages();
 
     const unsigned int            number;
     SimulationState              &state;
@@ -62,6 +66,7 @@ namespace graupel
     ResultFiles                  &files;
     FlowFrame                     frame;
     std::unique_ptr<FlowStrategy> strategy;
+    CaseAverages                  averages;
     std::vector<MonitorRow>       rows;
     double wall_start, cpu_start; // before it those of a resumed run [s]
   };

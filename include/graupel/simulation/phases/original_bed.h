@@ -2,7 +2,7 @@
 #define graupel_simulation_phases_original_bed_h
 
 #include <graupel/base/progress.h>
-#include <graupel/dem/bed/bed_observables.h>
+#include <graupel/dem/bed/wall_layer.h>
 #include <graupel/simulation/parameters/run_parameters.h>
 
 namespace graupel
@@ -18,15 +18,16 @@ namespace graupel
 
   /**
    * Solid fraction that the original particles would have over that of the simulated
-   * bed @p bed [-], as the section "Original bed" says; 1 without a correction. The
-   * correlation is Benyahia & O'Neill's, of which only the ratio of its values for both
-   * diameters is taken. Collective.
+   * bed @p bed [-], as the section "Original bed" says; 1 without a correction. @p
+   * packing is what the bed itself tells of them. Throws InputError where that is wanted
+   * and it tells nothing. Collective.
    */
-  double original_solid_ratio(const RunParameters       &parameters,
-                              const BedObservables::Bed &bed,
-                              Progress                  &progress,
-                              CostSheet                 &costs,
-                              MPI_Comm                   communicator);
+  double original_solid_ratio(const RunParameters                  &parameters,
+                              const BedObservables::Bed            &bed,
+                              const std::optional<OriginalPacking> &packing,
+                              Progress                             &progress,
+                              CostSheet                            &costs,
+                              MPI_Comm                              communicator);
 } // namespace graupel
 
 #endif

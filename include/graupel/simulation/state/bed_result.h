@@ -19,6 +19,9 @@ namespace graupel
     double                mean_coordination_number = 0.; // [-]
     double                vessel_diameter          = 0.; // [m]
     double                vessel_height            = 0.; // [m]
+    /** That the original particles would have in this vessel, by the bed's wall layer;
+     * none where there is no layer to go by [-]. */
+    std::optional<double> original_void_fraction;
     /** Solid fraction at which the drag law is evaluated over that of the bed [-]. */
     double original_solid_ratio = 1.;
   };

@@ -18,8 +18,10 @@ namespace graupel
   {
   public:
     /** Still fluid around the particles; all references must outlive this object.
-     * @p solid_ratio: LawVoidFraction::solid_ratio. */
+     * @p original_diameter: of the drag law of a mixture [m]; @p solid_ratio:
+     * LawVoidFraction::solid_ratio. */
     CoupledFlow(const RunParameters &parameters,
+                const double         original_diameter,
                 const double         solid_ratio,
                 VesselMesh          &mesh,
                 Dem                 &dem,
@@ -61,15 +63,14 @@ namespace graupel
      */
     bool adapt(const double cell_share);
 
-    /** Writes mesh and fields to files whose names begin with @p file. Collective. */
-    void save(const std::string &file) const;
-
     /**
-     * Goes on from the fields of save() and the @p history of the fluid() then, on the
-     * mesh that VesselMesh has loaded from the same file and past the particles where
-     * they are: as if nothing had been in between. Collective.
+     * Goes on from the FlowSolver::cell_bytes() and the FlowSolver::history() of the
+     * fluid() and the @p stable_step [s] then, past the particles where they are:
+     * as if nothing had been in between. Collective.
      */
-    void load(const FlowHistory &history, const double stable_step);
+    void load(const FlowHistory           &history,
+              const VesselMesh::CellBytes &bytes,
+              const double                 stable_step);
 
     /**
      * The longest step [s] that follows the answer of the particles to the fluid, as of
@@ -120,6 +121,7 @@ namespace graupel
     void take_over(std::array<NodalVector, 4> &fields, const double time);
 
     const RunParameters &parameters;
+    const double         original_diameter;
     const double         solid_ratio;
     VesselMesh          &mesh;
     Dem                 &dem;

@@ -5,7 +5,7 @@
 #include <graupel/base/progress.h>
 #include <graupel/dem/bed/bed_observables.h>
 #include <graupel/simulation/state/bed_result.h>
-#include <graupel/simulation/state/coupled_flow.h>
+#include <graupel/simulation/state/field_averages.h>
 
 namespace graupel
 {
@@ -55,6 +55,8 @@ namespace graupel
     std::optional<CoupledFlow> fluid;
     /** Of the fluid's last step. */
     FlowSolver::Report last_step;
+    /** Of the fluid, over the window of the flow case. */
+    FieldAverages averages;
 
     /** Simulated since the run began [s]. */
     double time = 0.;

@@ -9,6 +9,16 @@
 
 namespace graupel
 {
+  /** How the value at scale 1 follows from those of larger scales: by the polynomial
+   * through them (base/convergence.h, extrapolate); as the mean of what each tells of
+   * scale 1 by itself (mean_at); or as a product of other quantities. */
+  enum class AtScaleOne
+  {
+    polynomial,
+    mean,
+    product
+  };
+
   /** A number that a level of a study came to. */
   struct Measurement
   {
@@ -19,6 +29,10 @@ namespace graupel
     bool is_error = false;
     /** Of the mean over several beds; 0 for a single one. */
     double standard_error = 0.;
+    /** How a ladder comes to the value at scale 1. */
+    AtScaleOne at_scale_one = AtScaleOne::polynomial;
+    /** Quantities whose values there multiply to this one's, if it is a product. */
+    std::vector<std::string> factors = {};
   };
 
   /** What one level of a study computed. */
@@ -64,8 +78,8 @@ namespace graupel
 
   /**
    * The rows of a ladder of scales, from the largest to the smallest: from the third
-   * level on with the extrapolation to scale 1, whose relative error stands as index. It
-   * begins anew behind a hole, as in a study.
+   * level on with the value at scale 1, as each quantity comes to it, whose relative
+   * error stands as index. It begins anew behind a hole, as in a study.
    */
   std::vector<StudyRow> evaluate_ladder(const std::vector<LevelResult> &levels);
 

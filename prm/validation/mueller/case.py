@@ -1,0 +1,112 @@
+"""A bubbling bed seen by magnetic resonance: Mueller et al. (2008, 2009)."""
+
+import csv
+
+import numpy as np
+
+from common.style import BLUE, GREEN, GREY, new_figure
+from validation_parts.case import Comparison, Run, measured
+
+TITLE = "Bubbling bed of 44 mm x 10 mm at 0.6 and 0.9 m/s: void fraction and particle velocity"
+SOURCE = (
+    "magnetic resonance, Mueller et al., Powder Technology 184 (2008) 241 and Particuology 7"
+    " (2009) 297, digitised by others (prm/validation/mueller); the limits are on the rms of the"
+    " difference over the points of a line"
+)
+
+VELOCITIES = (0.6, 0.9)
+WIDTH = 0.044
+SEEN = "MRI experiment"  # the table has simulations of others too
+# Name of the line of bins, its height [m], quantity, and the limit at each velocity where that
+# was measured.
+LINES = (
+    ("void-16", 0.0164, "void_fraction", {0.6: 0.03, 0.9: 0.03}),
+    ("void-31", 0.0312, "void_fraction", {0.6: 0.04, 0.9: 0.08}),
+    ("velocity-15", 0.015, "particle_velocity_z", {0.9: 0.02}),
+    ("velocity-25", 0.025, "particle_velocity_z", {0.9: 0.025}),
+    ("velocity-35", 0.035, "particle_velocity_z", {0.9: 0.06}),
+)
+# The example of the bubbling bed, over the time that was averaged in the measurement.
+EXAMPLE = "../../fluidised-bed/bubbling.prm"
+WINDOW = {"Flow/duration": 10, "Averages/from": 2, "Averages/to": 10}
+MESHES = {"coarse": {}, "fine": {"Mesh/cell size": 1.4e-3}}
+UNITS = {"void_fraction": "-", "particle_velocity_z": "m/s"}
+
+
+def name_of(velocity, mesh):
+    """The run's name."""
+    return f"{velocity}-{mesh}"
+
+
+def runs(quick):
+    """Both velocities on both meshes, hours each; a moment if quick."""
+    if quick:
+        moment = {"Flow/duration": 0.05, "Averages/from": 0.01, "Averages/to": 0.05}
+        return [Run(name_of(0.6, "coarse"), EXAMPLE, moment)]
+    return [
+        Run(name_of(v, mesh), EXAMPLE, {**WINDOW, "Flow/superficial velocities": v, **values}, True)
+        for v in VELOCITIES
+        for mesh, values in MESHES.items()
+    ]
+
+
+def bins(run, line):
+    """Distance from the side wall [m], void fraction by particle volumes, and velocity [m/s]."""
+    with open(run.directory / "averages-lines-01.csv", newline="", encoding="utf-8") as file:
+        rows = [row for row in csv.DictReader(file) if row["name"] == line]
+
+    def column(key):
+        return np.array([float(row[key]) if row[key] else np.nan for row in rows])
+
+    void, velocity = 1.0 - column("solid_fraction"), column("velocity_z")
+    return column("x") + WIDTH / 2.0, {"void_fraction": void, "particle_velocity_z": velocity}
+
+
+def points(velocity, height, quantity):
+    """What was measured on a line: place [m] and value."""
+    rows = [
+        (row["x_m"], row["value"])
+        for row in measured("mueller")
+        if (row["U_m_per_s"], row["z_m"], row["quantity"]) == (velocity, height, quantity)
+        and row["kind"] == SEEN
+    ]
+    return np.array(rows).T
+
+
+def difference(run, velocity, line, height, quantity):
+    """rms over the measured points of ours less the measured."""
+    x, values = bins(run, line)
+    seen = np.isfinite(values[quantity])
+    at, value = points(velocity, height, quantity)
+    return float(np.sqrt(np.mean((np.interp(at, x[seen], values[quantity][seen]) - value) ** 2)))
+
+
+def evaluate(results):
+    """The rms difference of each measured line."""
+    return [
+        Comparison(f"rms difference, {line}, {velocity} m/s, {mesh} mesh", UNITS[quantity], 0.0,
+                   difference(results[name_of(velocity, mesh)], velocity, line, height, quantity),
+                   limit=limits[velocity], relative=False, decimals=4)
+        for velocity in VELOCITIES
+        for mesh in MESHES
+        if results.has(name_of(velocity, mesh))
+        for line, height, quantity, limits in LINES
+        if velocity in limits
+    ]  # fmt: skip
+
+
+def figure(results):
+    """The lines, measured and ours."""
+    picture = new_figure(height=6.0)
+    parts = picture.subplots(len(VELOCITIES), len(LINES))
+    for row, velocity in zip(parts, VELOCITIES):
+        for axes, (line, height, quantity, limits) in zip(row, LINES):
+            axes.set_title(f"{line}, {velocity} m/s", fontsize=7)
+            if velocity in limits:
+                x, value = points(velocity, height, quantity)
+                axes.plot(x * 1e3, value, "o", color=GREY, markersize=2)
+            for mesh, colour in zip(MESHES, (BLUE, GREEN)):
+                if results.has(name_of(velocity, mesh)):
+                    x, values = bins(results[name_of(velocity, mesh)], line)
+                    axes.plot(x * 1e3, values[quantity], color=colour)
+    return picture
