@@ -160,7 +160,7 @@ TEST(SphereForces, RotationalDragIsStokesAndDennis)
       EXPECT_LE((computed - expected).norm(), 1e-6 * expected.norm());
     }
   const double slow =
-    with("none", "none", "dennis").torque(d, inertia, step, {{3., 0., 0.}})[0];
+    with("none", "none", "dennis").torque(d, inertia, step, Vector({3., 0., 0.}))[0];
   EXPECT_NEAR(slow, 8. * pi * water.viscosity * a * a * a * 3., 1e-6 * slow);
   // Both fits meet.
   EXPECT_NEAR(dennis_torque(32. + 1e-9), 1., 2e-3);
