@@ -27,8 +27,9 @@ def decode(text):
     return b"".join(blocks)
 
 
-def positions(directory, number=0):
-    """Centers [m] of all particles of the set @p number, as an array of shape (n, 3)."""
+def vectors(directory, place, number=0):
+    """What each particle of the set @p number has at the @p place, an XPath, in a piece, as
+    an array of shape (n, 3)."""
     files = sorted((directory / "vtu").glob(f"particles_{number:04d}.*.vtu"))
     if not files:
         raise FileNotFoundError(f"{directory}: no particles_{number:04d}.*.vtu")
@@ -36,7 +37,17 @@ def positions(directory, number=0):
     for file in files:
         text = re.sub(r"<!--.*?-->", "", file.read_text(encoding="ascii"), flags=re.S)
         # A piece for each rank.
-        for array in ElementTree.fromstring(text.strip()).findall(".//Points/DataArray"):
+        for array in ElementTree.fromstring(text.strip()).findall(f".//{place}"):
             kind = "<f4" if array.get("type") == "Float32" else "<f8"
             parts.append(np.frombuffer(decode(array.text), kind).reshape(-1, 3).astype(float))
     return np.concatenate(parts)
+
+
+def positions(directory, number=0):
+    """Centers [m] of all particles of the set @p number, as an array of shape (n, 3)."""
+    return vectors(directory, "Points/DataArray", number)
+
+
+def fluid_forces(directory, number=0):
+    """Forces of the fluid [N] on them, likewise."""
+    return vectors(directory, "PointData/DataArray[@Name='fluid_force']", number)

@@ -81,7 +81,8 @@ namespace graupel
                      const LawVoidFraction         &law_void_fraction,
                      const std::vector<DragOfType> &drags,
                      const NodalSpace              &nodes,
-                     CostSheet                     &costs)
+                     CostSheet                     &costs,
+                     const AddedForceLaws          &added_forces)
     : filter_length(filter_length)
     , law(law_void_fraction)
     , drags(drags)
@@ -92,6 +93,8 @@ namespace graupel
     , result(nodes)
   {
     result.shares_pressure = shares_pressure;
+    if (added_forces.parameters.any())
+      added.emplace(added_forces, nodes);
     for (NodalVector *field : {&solid_fraction, &scratch, &smooth_scratch})
       nodes.initialize(*field);
     for (NodalVectorField *field :
@@ -128,17 +131,8 @@ namespace graupel
         if (result.shares_pressure)
           filter.smooth(smooth_gradient[i], gradient[i]);
       }
-  }
-
-  template <typename Function>
-  void
-  Exchange::spread(NodalVector &x, const Function &value)
-  {
-    std::vector<double> values(beta.size());
-    for (unsigned int row = 0; row < values.size(); ++row)
-      values[row] = value(row);
-    transfer.deposit(scratch, values);
-    filter.spread(x, scratch);
+    if (added)
+      added->follow(flow, filter);
   }
 
   void
@@ -179,6 +173,7 @@ namespace graupel
     const CostSheet::Scope timing(costs, CostSheet::exchange);
     find_drag_coefficients(particles);
     response = held_response(particles);
+    find_added_forces(particles);
     answer.assign(particles.n_owned, 1.);
     result.solids.reset();
     spread(result.drag, [&](const unsigned int row) { return beta[row]; });
@@ -186,6 +181,7 @@ namespace graupel
       spread(result.drag_source[i], [&](const unsigned int row) {
         return beta[row] * response.velocity[row][i];
       });
+    add_forces();
   }
 
   void
@@ -195,6 +191,7 @@ namespace graupel
     const CostSheet::Scope timing(costs, CostSheet::exchange);
     find_drag_coefficients(particles);
     response = particle_response;
+    find_added_forces(particles);
     find_answers();
     if (!result.solids)
       result.solids.emplace(nodes);
@@ -226,6 +223,7 @@ namespace graupel
       }
     put_back_old_fields();
     yield_to_pressure();
+    add_forces();
   }
 
   void
@@ -235,7 +233,7 @@ namespace graupel
     double least = 1.;
     for (unsigned int row = 0; row < answer.size(); ++row)
       {
-        answer[row] = 1. / (1. + beta[row] * response.mobility[row]);
+        answer[row] = 1. / (1. + (beta[row] + inertia(row)) * response.mobility[row]);
         least       = std::min(least, answer[row]);
       }
     least    = dealii::Utilities::MPI::min(least, nodes.mesh.communicator());
@@ -341,6 +339,8 @@ namespace graupel
             force[row][i] =
               answer[row] * (beta[row] * (velocity[row] - response.velocity[row][i]) -
                              volume[row] * pressure[row]);
+            if (added)
+              force[row][i] += answer[row] * added_force(row, i, velocity[row]);
             fluid_force[i] += force[row][i];
           }
       }
@@ -390,8 +390,9 @@ namespace graupel
         const double radius = particles.body[row].radius, a = law_alpha[row];
         const double slope =
           drags[particles.type[row]].slope(a, slip[row], radius) / (of_drag[row] * a * a);
-        step = std::min(
-          step, graupel::stable_step(flow_alpha[row], particles.mass[row], slope));
+        const double mass =
+          particles.mass[row] + (added ? added->virtual_mass()[row] : 0.);
+        step = std::min(step, graupel::stable_step(flow_alpha[row], mass, slope));
       }
     return dealii::Utilities::MPI::min(step, nodes.mesh.communicator());
   }

@@ -32,6 +32,7 @@ namespace graupel
     const double                                                       step)
   {
     ParticleResponse response = held_response(particles);
+    response.step             = step;
     for (unsigned int row = 0; row < particles.n_owned; ++row)
       {
         const double mass     = particles.mass[row];

@@ -30,6 +30,15 @@ namespace graupel
       return rows;
     }
 
+    // Whether some vector is not zero; one that is no number is none.
+    bool
+    any(const std::vector<Vector> &vectors)
+    {
+      return std::any_of(vectors.begin(), vectors.end(), [](const Vector &x) {
+        return !(x.norm_square() == 0.);
+      });
+    }
+
     double
     translational_energy(const ParticleArrays &p, const unsigned int i)
     {
@@ -290,18 +299,10 @@ namespace graupel
       pair.friction = with_walls;
   }
 
-  bool
-  Dem::has_external_forces() const
-  {
-    return std::any_of(arrays.external_force.begin(),
-                       arrays.external_force.end(),
-                       [](const Vector &force) { return !(force.norm_square() == 0.); });
-  }
-
   Integration
   Dem::integration(const double dt) const
   {
-    return {contacts.quanta(), gravity, dt, external_forces};
+    return {contacts.quanta(), gravity, dt, external_forces, external_torques};
   }
 
   void
@@ -313,7 +314,8 @@ namespace graupel
       static_cast<unsigned int>(std::ceil(duration / longest_substep - 1e-9));
     const auto dt = duration / std::max(1u, n);
 
-    external_forces = has_external_forces();
+    external_forces  = any(arrays.external_force);
+    external_torques = any(arrays.external_torque);
     contacts.reset_wall_loads();
     const Clock begin = time;
     for (unsigned int s = 0; s < n; ++s)

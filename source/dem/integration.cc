@@ -22,6 +22,15 @@ namespace graupel
       return std::experimental::static_simd_cast<Lanes>(number);
     }
 
+    [[gnu::always_inline]] inline Triple<Lanes>
+    from_outside(const std::vector<dealii::Tensor<1, 3>> &x, const std::uint32_t *rows)
+    {
+      const auto component = [&](const unsigned int d) {
+        return Lanes([&](auto l) { return x[rows[l]][d]; });
+      };
+      return {component(0), component(1), component(2)};
+    }
+
     [[gnu::always_inline]] inline HalfKick
     half_kick(const ParticleArrays &p,
               const std::uint32_t  *rows,
@@ -39,16 +48,15 @@ namespace graupel
       Triple<Lanes> force{
         in.quanta.force * load[0], in.quanta.force * load[1], in.quanta.force * load[2]};
       if (in.external_forces)
-        {
-          const auto outside = [&](const unsigned int d) {
-            return Lanes([&](auto l) { return p.external_force[rows[l]][d]; });
-          };
-          force += {outside(0), outside(1), outside(2)};
-        }
-      const double h = 0.5 * in.step;
+        force += from_outside(p.external_force, rows);
+      const double  h = 0.5 * in.step;
+      Triple<Lanes> spin =
+        (by_inertia * in.quanta.torque) * Triple<Lanes>{load[3], load[4], load[5]};
+      if (in.external_torques)
+        spin += by_inertia * from_outside(p.external_torque, rows);
       return {by_mass * force +
                 Triple<Lanes>{h * in.gravity[0], h * in.gravity[1], h * in.gravity[2]},
-              (by_inertia * in.quanta.torque) * Triple<Lanes>{load[3], load[4], load[5]}};
+              spin};
     }
 
     template <bool kicks, bool drifts>

@@ -15,6 +15,7 @@ namespace graupel
     CellState state;
     state.size          = space.cell_sizes[cell];
     state.drag_on_nodes = space.has_hanging_node[cell];
+    state.whole_stress  = whole_stress;
     for (unsigned int a = 0; a < nodes_per_cell; ++a)
       {
         const unsigned int node     = space.cell_nodes[cell][a];

@@ -101,6 +101,14 @@ namespace graupel
     return dealii::Utilities::MPI::sum(force, nodes.mesh.communicator());
   }
 
+  dealii::Tensor<2, 3>
+  FlowSolver::viscous_stress(const dealii::Tensor<2, 3> &gradient) const
+  {
+    return viscosity *
+           (gradient + dealii::transpose(gradient) -
+            2. / 3. * dealii::trace(gradient) * dealii::unit_symmetric_tensor<3>());
+  }
+
   dealii::Tensor<1, 3>
   FlowSolver::viscous_traction(const FlowSpace::FacePoint &point) const
   {
@@ -114,10 +122,7 @@ namespace graupel
         for (unsigned int i = 0; i < 3; ++i)
           gradient[i] += flux_now[i].local_element(node) / node_alpha * point.gradient[a];
       }
-    const auto divergence = dealii::trace(gradient);
-    return viscosity * alpha *
-           ((gradient + dealii::transpose(gradient)) * point.normal -
-            2. / 3. * divergence * point.normal);
+    return (whole_stress ? 1. : alpha) * (viscous_stress(gradient) * point.normal);
   }
 
   dealii::Tensor<1, 3>

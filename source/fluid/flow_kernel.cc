@@ -92,7 +92,7 @@ namespace graupel
     const double     tau = stabilization_time(coefficients, here.resistance, state.size);
     const double     gamma =
       coefficients.grad_div * (rho * speed * state.size + coefficients.viscosity) / alpha;
-    const double mu_alpha = coefficients.viscosity * alpha;
+    const double mu_alpha = coefficients.viscosity * (state.whole_stress ? 1. : alpha);
 
     std::array<double, nodes_per_cell> galerkin; // acceleration and convection of node b
     std::array<double, nodes_per_cell> strong;   // the same with the drag: its residual

@@ -123,6 +123,12 @@ namespace graupel
   }
 
   void
+  FlowSolver::share_viscous_stress(const bool shared)
+  {
+    whole_stress = shared;
+  }
+
+  void
   FlowSolver::set_outlet_traction(const NodalVectorField &traction)
   {
     outlet_traction = traction;

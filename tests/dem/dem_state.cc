@@ -36,7 +36,11 @@ TEST(DemState, GoesOnBitByBitOnAnyNumberOfRanks)
   whole.dem.insert(positions);
   whole.dem.advance(0.08);
   for (unsigned int row = 0; row < whole.dem.particles().n_owned; ++row)
-    whole.dem.particles().external_force[row][0] = 1e-6 * whole.dem.particles().id[row];
+    {
+      const auto id                                 = whole.dem.particles().id[row];
+      whole.dem.particles().external_force[row][0]  = 1e-6 * id;
+      whole.dem.particles().external_torque[row][1] = 1e-10 * id;
+    }
   whole.dem.advance(1e-4);
 
   std::stringstream file;

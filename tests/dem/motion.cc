@@ -253,6 +253,28 @@ namespace
       }
   }
 
+  // Law: I ds/dt = T. A constant torque is integrated exactly, up to rounding, and does
+  // not move the center.
+  TEST(Motion, TorqueFromOutsideSpinsAFreeSphere)
+  {
+    SmallColumn column(no_gravity("hertz-mindlin", 0.5));
+    column.dem.insert({Point<3>(0., 0., 0.015)});
+    const double inertia =
+      0.4 * column.dem.parameters().particles.simulated_mass() * 1e-6;
+    const Vector torque({1e-9, -2e-9, 3e-9});
+    if (column.row(0) >= 0)
+      column.dem.particles().external_torque[column.row(0)] = torque;
+    column.dem.advance(0.01);
+    column.dem.advance(0.02);
+    if (const int row = column.row(0); row >= 0)
+      {
+        const Body  &body     = column.dem.particles().body[row];
+        const Vector expected = 0.03 / inertia * torque;
+        EXPECT_LE((body.spin - expected).norm(), 1e-10 * expected.norm()) << body.spin;
+        EXPECT_EQ(body.velocity.norm(), 0.);
+      }
+  }
+
   TEST(Motion, ForceThatIsNotANumberStops)
   {
     SmallColumn column(no_gravity("hertz-mindlin", 0.5));

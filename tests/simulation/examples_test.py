@@ -59,7 +59,11 @@ class Complete(ExampleTest):
     """No example goes without a test."""
 
     def test_every_example_is_named_here(self):
-        text = (ROOT / "tests" / "simulation" / "examples_test.py").read_text(encoding="utf-8")
+        tests = ROOT / "tests" / "simulation"
+        text = "".join(
+            (tests / name).read_text(encoding="utf-8")
+            for name in ("examples_test.py", "one_particle_test.py")
+        )
         for file in EXAMPLES.rglob("*.prm"):
             if (EXAMPLES / "validation") in file.parents:
                 continue  # validation_test.py

@@ -92,6 +92,18 @@ class KilledRuns(RunTest):
     def test_a_bed_that_moves_on_two_ranks(self):
         self.expect_the_same("restart.prm", {}, ("settle", "flow"), ranks=2)
 
+    def test_a_liquid_with_all_its_forces(self):
+        values = {
+            "Flow/duration": 0.03,
+            "Flow/time step": 1e-3,
+            "Forces/virtual mass": "zuber",
+            "Forces/viscous stress": "true",
+            "Forces/shear lift": "saffman-mei",
+            "Forces/spin lift": "lun-liu",
+            "Forces/rotational drag": "dennis",
+        }
+        self.expect_the_same("water.prm", values, ("flow",))
+
     def test_a_rain_at_a_rate(self):
         self.expect_the_same("rate.prm", {}, ("fill", "settle"))
 

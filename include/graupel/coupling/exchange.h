@@ -2,6 +2,7 @@
 #define graupel_coupling_exchange_h
 
 #include <graupel/base/cost_sheet.h>
+#include <graupel/coupling/added_forces.h>
 #include <graupel/coupling/drag_of_type.h>
 #include <graupel/coupling/filter.h>
 #include <graupel/coupling/particle_response.h>
@@ -57,6 +58,8 @@ namespace graupel
    * same pressure gradient.
    * Source: Gidaspow, Multiphase Flow and Fluidization (1994), ch. 2.
    *
+   * Further forces, where they are wanted, are those of AddedForces.
+   *
    * The void fraction of the law, alpha', may be another than that of the flow, alpha:
    * undisturbed by the filter where that smears the surface of the bed, or that of
    * another bed which the simulated one stands for (LawVoidFraction). What a particle
@@ -93,7 +96,8 @@ namespace graupel
              const LawVoidFraction         &law_void_fraction,
              const std::vector<DragOfType> &drags,
              const NodalSpace              &nodes,
-             CostSheet                     &costs);
+             CostSheet                     &costs,
+             const AddedForceLaws          &added_forces = {});
 
     /** Void fraction of the flow and of the drag law, from where the particles are
      * (the store must be current). Throws InputError("Coupling/filter length", ...) on
@@ -120,6 +124,10 @@ namespace graupel
      * S M^-1 W^T (D V) of the pressure gradient. Where drag and pressure balance, the
      * force on a particle is -V / (1 - alpha) grad p; held ones yield to its change by
      * the flux -S M^-1 W^T (yielding V^2 / (1 - alpha)) grad (p - p_old).
+     *
+     * A virtual mass M counts as a further beta of M/dt past the velocity that the fluid
+     * brings along (AddedForces); what the fluid feels of the latter is taken node by
+     * node, as averages over the filter would smooth the flow.
      */
     void update_drag(const ParticleArrays &particles, const ParticleResponse &response);
 
@@ -146,6 +154,11 @@ namespace graupel
                                              const FlowSolver           &flow,
                                              const double                density,
                                              const dealii::Tensor<1, 3> &gravity);
+
+    /** Torque of the fluid on each own particle over the next @p step [s], after forces()
+     * [N m]. */
+    std::vector<dealii::Tensor<1, 3>> torques(const ParticleArrays &particles,
+                                              const double          step) const;
 
     /**
      * The longest step [s] that the particles of the last forces() bear: the least
@@ -187,6 +200,19 @@ namespace graupel
     double mean(const std::vector<double> &values) const;
     void   find_drag_coefficients(const ParticleArrays &particles);
     void   find_answers();
+    void   find_added_forces(const ParticleArrays &particles);
+    // M/dt of a row, or 0.
+    double inertia(const unsigned int row) const;
+    // To what the medium has of drag and pressure.
+    void add_forces();
+    void add_known_forces();
+    void add_virtual_mass();
+    // Component i of the added force where the fluid moves with velocity, over D [N].
+    double added_force(const unsigned int row,
+                       const unsigned int i,
+                       const double       velocity) const;
+    // Values of hanging nodes and ghosts from those of the own nodes.
+    void complete(NodalVector &x) const;
     // Takes what a particle would answer to the fields of the last forces() node by node
     // instead of particle by particle; in a bed at rest nothing is then left of the
     // mobility.
@@ -228,7 +254,20 @@ namespace graupel
     std::vector<double>  of_drag;         // W S alpha^-2, in model B alpha^-1, by row
     dealii::Tensor<1, 3> fluid_force;
     double               momentum_error = 0., volume_error = 0.;
+
+    std::optional<AddedForces> added;
   };
+
+  template <typename Function>
+  void
+  Exchange::spread(NodalVector &x, const Function &value)
+  {
+    std::vector<double> values(beta.size());
+    for (unsigned int row = 0; row < values.size(); ++row)
+      values[row] = value(row);
+    transfer.deposit(scratch, values);
+    filter.spread(x, scratch);
+  }
 } // namespace graupel
 
 #endif

@@ -4,6 +4,7 @@
 #include <graupel/dem/particles/particle_arrays.h>
 
 #include <functional>
+#include <limits>
 
 namespace graupel
 {
@@ -20,6 +21,8 @@ namespace graupel
     /** By row: mobility of a held particle for a change of the force since the last step,
      * as contacts may give way; it acts on continuity alone [s/kg]. */
     std::vector<double> yielding;
+    /** The fluid's step [s]; infinite for one that seeks a steady flow. */
+    double step = std::numeric_limits<double>::infinity();
   };
 
   /** They go on as they do, whatever the fluid does. */

@@ -333,7 +333,6 @@ namespace graupel
     ParticleStore::ContactsOf  contacts_of() const;
     unsigned int               cell_weight(const double cell_share) const;
     void follow(const std::vector<std::int64_t> &old_ids, ParticleStore::Moves moves);
-    bool has_external_forces() const;
     void move_walls(const double dt);
     void open_and_close_gates();
     std::string                 in_the_way_of(const Wall &wall) const;
@@ -368,8 +367,9 @@ namespace graupel
     Clock                 time;
     std::vector<WallLoad> wall_loads;
 
-    bool external_forces = false;
-    bool packing         = false;
+    bool external_forces  = false;
+    bool external_torques = false;
+    bool packing          = false;
 
     // Of what is in the vessel and what has left it, by type [-, m^3].
     std::vector<unsigned long> number_by_type, departed_by_type;

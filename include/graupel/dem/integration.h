@@ -16,6 +16,8 @@ namespace graupel
     double step;
     /** Whether some external force is not zero. */
     bool external_forces;
+    /** The same of the torques. */
+    bool external_torques;
   };
 
   /**

@@ -50,6 +50,8 @@ namespace graupel
     std::array<double, nodes_per_cell> void_fraction;
     /** Whether the solver adds the drag node by node. */
     bool drag_on_nodes = false;
+    /** Whether the equation has div tau instead of div(alpha tau). */
+    bool whole_stress = false;
     /** B / alpha, the resistance to the flux [kg/m^3/s]. */
     std::array<double, nodes_per_cell> resistance;
     /** w, the share of the pressure gradient that acts on the fluid [-]. */

@@ -60,6 +60,22 @@ namespace graupel
     explicit Medium(const NodalSpace &nodes);
   };
 
+  /** Derivatives of the interstitial velocity u at the nodes, ghosts up to date. */
+  struct FlowDerivatives
+  {
+    /** (u grad) u [m/s^2]. */
+    NodalVectorField acceleration;
+    /** rot u [1/s]. */
+    NodalVectorField vorticity;
+    /** div tau, tau = mu (grad u + grad u^T - 2/3 div u), as the momentum equation weighs
+     * it; where the flux is prescribed, and this has none, that of the nodes next to it
+     * [N/m^3]. */
+    NodalVectorField viscous_force;
+
+    /** All zero. */
+    explicit FlowDerivatives(const NodalSpace &nodes);
+  };
+
   /** A linear or nonlinear solve that did not converge; a smaller step may help. */
   class SolverFailure : public std::runtime_error
   {
@@ -141,6 +157,16 @@ namespace graupel
       return now;
     }
 
+    /** Whether the equation has div tau, of which Medium::drag_source takes the solids'
+     * share, from now on; else, and at first, it has div(alpha tau). */
+    void share_viscous_stress(const bool shared);
+
+    bool
+    shares_viscous_stress() const
+    {
+      return whole_stress;
+    }
+
     /** Traction at the outlets beside the prescribed pressure, 0 without [Pa];
      * ghosts up to date. */
     void set_outlet_traction(const NodalVectorField &traction);
@@ -205,6 +231,9 @@ namespace graupel
      * alpha_k m_k g_k is the force on the fluid [Pa/m], ghosts up to date.
      */
     NodalVectorField pressure_gradient() const;
+
+    /** Of the latest flux. Collective. */
+    FlowDerivatives derivatives() const;
 
     /** Mean pressure over a boundary: of the prescribed one where there is one, since it
      * acts there; the solution's differs by the error of the mesh [Pa]. */
@@ -318,6 +347,9 @@ namespace graupel
     // Integral of psi_k n times the prescribed pressure over the outlets [N].
     NodalVectorField     outlet_forces() const;
     dealii::Tensor<1, 3> viscous_traction(const FlowSpace::FacePoint &point) const;
+    dealii::Tensor<2, 3> viscous_stress(const dealii::Tensor<2, 3> &gradient) const;
+    bool                 is_prescribed(const unsigned int node) const;
+    void                 continue_to_prescribed(NodalVectorField &field) const;
     Report               solve_nonlinear(const Medium &medium);
     double               take_carrier();
     void                 restore_solution();
@@ -337,6 +369,7 @@ namespace graupel
     const FlowSpace      space;
     FlowBoundaries       boundaries;
 
+    bool             whole_stress         = false;
     double           superficial_velocity = 0.;
     double           last_velocity        = 0.; // of the last step
     double           volume               = 0.; // of the vessel [m^3]

@@ -153,8 +153,7 @@ namespace graupel
      */
     void adapt(const CellWeight &weight);
 
-    /** Bytes of each own active cell, in the order of owned_cells(); equally many each.
-     */
+    /** Bytes of each own active cell, in the order of owned_cells(); equally many each. */
     using CellBytes = std::vector<std::vector<char>>;
 
     /** Writes the refinement and @p bytes to files whose names begin with @p file.

@@ -13,7 +13,10 @@ namespace graupel
     std::memcpy(parcel.body.data(), &p.body[row], sizeof(Body));
     parcel.load = p.load[row].quanta;
     for (unsigned int d = 0; d < 3; ++d)
-      parcel.external_force[d] = p.external_force[row][d];
+      {
+        parcel.external_force[d]  = p.external_force[row][d];
+        parcel.external_torque[d] = p.external_torque[row][d];
+      }
     return parcel;
   }
 
@@ -25,7 +28,10 @@ namespace graupel
     p.body[row]        = body_of(parcel);
     p.load[row].quanta = parcel.load;
     for (unsigned int d = 0; d < 3; ++d)
-      p.external_force[row][d] = parcel.external_force[d];
+      {
+        p.external_force[row][d]  = parcel.external_force[d];
+        p.external_torque[row][d] = parcel.external_torque[d];
+      }
   }
 
   Body

@@ -13,6 +13,7 @@ namespace graupel
     mass.resize(n_rows);
     load.resize(n_rows);
     external_force.resize(n_rows);
+    external_torque.resize(n_rows);
   }
 
   double

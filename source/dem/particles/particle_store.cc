@@ -325,6 +325,7 @@ namespace graupel
     rearrange(particles.mass, old_row);
     rearrange(particles.load, old_row);
     rearrange(particles.external_force, old_row);
+    rearrange(particles.external_torque, old_row);
     particles.n_owned = n;
     for (const auto &[rank, delivery] : received)
       {

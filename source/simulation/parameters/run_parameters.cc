@@ -29,6 +29,7 @@ namespace graupel
     fluid.declare(prm);
     drag.declare(prm);
     coupling.declare(prm);
+    forces.declare(prm);
     original_bed.declare(prm);
     flow.declare(prm);
     sweep.declare(prm);
@@ -50,6 +51,8 @@ namespace graupel
     feeds.check(cylinder, dem);
     fluid.check();
     coupling.check();
+    for (const ParticleType &type : dem.types())
+      forces.check(type.scale, coupling.model);
     check_original_bed();
     read_probes(output.probes);
     drag.check(dem.particles.scale, dem.mean_original_diameter());

@@ -51,13 +51,18 @@ namespace graupel
                    parameters.fluid.viscosity,
                    *node_space,
                    costs);
+    solver->share_viscous_stress(parameters.forces.viscous_stress);
+    AddedForceLaws added{parameters.forces, parameters.fluid, {}};
+    for (const auto &type : parameters.dem.types())
+      added.scales.push_back(type.scale);
     particles_and_fluid.emplace(
       parameters.filter_length(),
       parameters.coupling.model == "A",
       LawVoidFraction{parameters.coupling.bed_surface == "sharp", solid_ratio},
       parameters.drags(original_diameter),
       *node_space,
-      costs);
+      costs,
+      added);
   }
 
   void
@@ -166,7 +171,8 @@ namespace graupel
     const auto report = solver->step(particles_and_fluid->medium(), step);
     dem.particles().external_force =
       particles_and_fluid->forces(dem.particles(), *solver, density, gravity);
-    longest_step = particles_and_fluid->stable_step(dem.particles());
+    dem.particles().external_torque = particles_and_fluid->torques(dem.particles(), step);
+    longest_step                    = particles_and_fluid->stable_step(dem.particles());
     return report;
   }
 

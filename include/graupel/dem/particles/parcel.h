@@ -9,16 +9,17 @@ namespace graupel
   struct Parcel
   {
     unsigned char               type = 0;
-    double                      mass = 0.;        // [kg]
-    std::array<double, 16>      body{};           // as Body
-    std::array<std::int64_t, 8> load{};           // as Load
-    std::array<double, 3>       external_force{}; // [N]
+    double                      mass = 0.;         // [kg]
+    std::array<double, 16>      body{};            // as Body
+    std::array<std::int64_t, 8> load{};            // as Load
+    std::array<double, 3>       external_force{};  // [N]
+    std::array<double, 3>       external_torque{}; // [N m]
 
     template <class Archive>
     void
     serialize(Archive &archive, const unsigned int)
     {
-      archive &type &mass &body &load &external_force;
+      archive &type &mass &body &load &external_force &external_torque;
     }
   };
 

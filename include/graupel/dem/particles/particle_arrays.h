@@ -67,6 +67,8 @@ namespace graupel
      * until changed; it travels with the particle [N]; own rows only.
      */
     std::vector<dealii::Tensor<1, 3>> external_force;
+    /** Torque from outside, likewise [N m]; own rows only. */
+    std::vector<dealii::Tensor<1, 3>> external_torque;
     /** Number of own particles. */
     unsigned int n_owned = 0;
 

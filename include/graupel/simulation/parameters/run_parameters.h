@@ -27,6 +27,7 @@ namespace graupel
     FluidProperties        fluid;
     DragParameters         drag;
     CouplingParameters     coupling;
+    ForceParameters        forces;
     OriginalBedParameters  original_bed;
     FlowParameters         flow;
     SweepParameters        sweep;

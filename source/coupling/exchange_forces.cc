@@ -1,0 +1,106 @@
+#include <graupel/coupling/exchange.h>
+
+namespace graupel
+{
+  void
+  Exchange::find_added_forces(const ParticleArrays &particles)
+  {
+    if (!added)
+      return;
+    std::array<std::vector<double>, 3> velocity;
+    for (unsigned int i = 0; i < 3; ++i)
+      transfer.sample(velocity[i], smooth_velocity[i]);
+    added->evaluate(particles, transfer, velocity, law_alpha, response.step);
+  }
+
+  double
+  Exchange::inertia(const unsigned int row) const
+  {
+    return added ? added->inertia()[row] : 0.;
+  }
+
+  double
+  Exchange::added_force(const unsigned int row,
+                        const unsigned int i,
+                        const double       velocity) const
+  {
+    return inertia(row) *
+             (velocity - added->carried()[row][i] - response.velocity[row][i]) +
+           added->known()[row][i];
+  }
+
+  void
+  Exchange::complete(NodalVector &x) const
+  {
+    nodes.hanging_nodes.distribute(x);
+    x.update_ghost_values();
+  }
+
+  void
+  Exchange::add_forces()
+  {
+    if (!added)
+      return;
+    add_known_forces();
+    if (result.solids)
+      add_virtual_mass();
+  }
+
+  void
+  Exchange::add_known_forces()
+  {
+    NodalVector part;
+    nodes.initialize(part);
+    for (unsigned int i = 0; i < 3; ++i)
+      {
+        spread(part, [&](const unsigned int row) {
+          return answer[row] *
+                 (added->known()[row][i] - inertia(row) * response.velocity[row][i]);
+        });
+        result.drag_source[i] -= part;
+        complete(result.drag_source[i]);
+        if (!result.solids)
+          continue;
+        spread(part, [&](const unsigned int row) {
+          return volume[row] * response.mobility[row] * answer[row] *
+                 added->known()[row][i];
+        });
+        result.solids->flux[i] += part;
+        complete(result.solids->flux[i]);
+      }
+  }
+
+  void
+  Exchange::add_virtual_mass()
+  {
+    NodalVector drag, flux;
+    for (NodalVector *field : {&drag, &flux})
+      nodes.initialize(*field);
+    spread(drag, [&](const unsigned int row) { return answer[row] * inertia(row); });
+    spread(flux, [&](const unsigned int row) {
+      return volume[row] * response.mobility[row] * answer[row] * inertia(row);
+    });
+    result.drag += drag;
+    complete(result.drag);
+    result.solids->by_velocity += flux;
+    complete(result.solids->by_velocity);
+    for (unsigned int i = 0; i < 3; ++i)
+      {
+        for (unsigned int k = 0; k < drag.locally_owned_size(); ++k)
+          {
+            const double e = added->carried(interstitial[i].local_element(k), i, k);
+            result.drag_source[i].local_element(k) += drag.local_element(k) * e;
+            result.solids->flux[i].local_element(k) -= flux.local_element(k) * e;
+          }
+        complete(result.drag_source[i]);
+        complete(result.solids->flux[i]);
+      }
+  }
+
+  std::vector<dealii::Tensor<1, 3>>
+  Exchange::torques(const ParticleArrays &particles, const double step) const
+  {
+    return added ? added->torques(particles, transfer, step)
+                 : std::vector<dealii::Tensor<1, 3>>(particles.n_owned);
+  }
+} // namespace graupel
