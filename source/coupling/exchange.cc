@@ -1,21 +1,8 @@
 #include <graupel/base/parameters.h>
 #include <graupel/coupling/exchange.h>
 
-#include <sstream>
-
 namespace graupel
 {
-  namespace
-  {
-    [[noreturn]] void
-    fail_at(const dealii::Point<3> &position, const std::string &reason)
-    {
-      std::ostringstream message;
-      message << "At the particle at (" << position << ") m: " << reason;
-      throw std::runtime_error(message.str());
-    }
-  } // namespace
-
   void
   CouplingParameters::declare(dealii::ParameterHandler &prm)
   {
@@ -107,7 +94,7 @@ namespace graupel
     transfer.update(store);
     deposit_void_fraction(particles);
     check_void_fraction(particles);
-    law_alpha = law_void_fractions(particles);
+    law_alpha = law_void_fractions();
     of_slip   = smooth_power(-1);
     of_drag   = result.shares_pressure ? smooth_power(-2) : of_slip;
   }
@@ -136,36 +123,6 @@ namespace graupel
       values[row] = value(row);
     transfer.deposit(scratch, values);
     filter.spread(x, scratch);
-  }
-
-  void
-  Exchange::find_drag_coefficients(const ParticleArrays &particles)
-  {
-    const unsigned int                 n = particles.n_owned;
-    std::array<std::vector<double>, 3> velocity;
-    for (unsigned int i = 0; i < 3; ++i)
-      transfer.sample(velocity[i], smooth_velocity[i]);
-
-    beta.resize(n);
-    slip.resize(n);
-    for (unsigned int row = 0; row < n; ++row)
-      {
-        dealii::Tensor<1, 3> relative;
-        for (unsigned int i = 0; i < 3; ++i)
-          relative[i] = velocity[i][row] - particles.body[row].velocity[i];
-        const double a = law_alpha[row];
-        slip[row]      = relative.norm() / (of_slip[row] * a);
-        try
-          {
-            beta[row] =
-              drags[particles.type[row]].beta(a, slip[row], particles.body[row].radius) /
-              (of_drag[row] * a * a);
-          }
-        catch (const std::exception &error)
-          {
-            fail_at(particles.body[row].position, error.what());
-          }
-      }
   }
 
   void
@@ -358,8 +315,8 @@ namespace graupel
     for (unsigned int row = 0; row < particles.n_owned; ++row)
       {
         const double radius = particles.body[row].radius, a = law_alpha[row];
-        const double slope =
-          drags[particles.type[row]].slope(a, slip[row], radius) / (of_drag[row] * a * a);
+        const double slope = drags[particles.type[row]].slope(a, slip[row], radius) /
+                             (of_drag[row] * a * a * (1. - own_part[row]));
         step = std::min(
           step, graupel::stable_step(flow_alpha[row], particles.mass[row], slope));
       }

@@ -101,9 +101,8 @@ TEST(FewParticles, WithoutAnyTheFluidIsClear)
 
 TEST(FewParticles, OneFeelsTheLawInClearFluidWhateverTheMesh)
 {
-  // Held in the middle of the column, with the default filter. It takes neither itself
-  // nor, with a sharp surface, its filtered surroundings for a bed; what is left is its
-  // blob in the flow, 3 % of void.
+  // Held in the middle of the column, with the default filter. What is left is the
+  // section that it takes from the column, some 2 %.
   const double velocity = 1.;
   for (const double cell : {4e-3, 2e-3, 1e-3})
     {
@@ -117,7 +116,7 @@ TEST(FewParticles, OneFeelsTheLawInClearFluidWhateverTheMesh)
       const double force = column.exchange.total_force()[2];
       std::cout << "cells of " << cell << " m: " << force << " N of " << expected << " N"
                 << std::endl;
-      EXPECT_NEAR(force, expected, 0.04 * expected) << cell;
+      EXPECT_NEAR(force, expected, 0.03 * expected) << cell;
       EXPECT_LE(column.exchange.momentum_imbalance(), 1e-10);
       EXPECT_LE(column.exchange.solid_volume_error(), 1e-12);
     }
