@@ -14,6 +14,9 @@ namespace graupel
     // Below, the series serves: the closed form loses its digits [-].
     constexpr double small = 1e-2;
 
+    // Solid fractions of hard spheres where the fluid freezes and the crystal melts [-].
+    constexpr double freezing = 0.494, melting = 0.545;
+
     double
     oseen_factor(const double x)
     {
@@ -74,8 +77,9 @@ namespace graupel
   double
   hard_sphere_structure_factor(const double solid_fraction)
   {
-    const double phi = std::clamp(solid_fraction, 0., 1.);
-    return std::pow(1. - phi, 4) /
+    const double phi   = std::clamp(solid_fraction, 0., 1.);
+    const double fluid = std::clamp((melting - phi) / (melting - freezing), 0., 1.);
+    return fluid * std::pow(1. - phi, 4) /
            (std::pow(1. + 2. * phi, 2) + phi * phi * phi * (phi - 4.));
   }
 } // namespace graupel

@@ -155,8 +155,15 @@ namespace graupel
     if (law.sharp_surface)
       alpha = surface_factors(surroundings);
     for (unsigned int row = 0; row < alpha.size(); ++row)
-      alpha[row] = std::max(1. - surroundings[row] * alpha[row] * law.solid_ratio,
-                            std::min(flow_alpha[row], densest));
+      {
+        // At a surface the neighbours are as close as within the bed.
+        const double factor = alpha[row];
+        isolation[row]      = hard_sphere_structure_factor(factor * surroundings[row]);
+        surroundings[row] =
+          std::max(0., 1. - flow_alpha[row] - isolation[row] * own_solid(row, 1));
+        alpha[row] = std::max(1. - surroundings[row] * factor * law.solid_ratio,
+                              std::min(flow_alpha[row], densest));
+      }
     return alpha;
   }
 

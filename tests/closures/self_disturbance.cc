@@ -81,10 +81,11 @@ TEST(SelfDisturbance, StructureFactorIsTheCompressibilityOfHardSpheres)
     return phi * (1. + phi + phi * phi - phi * phi * phi) / std::pow(1. - phi, 3);
   };
   const double step = 1e-4;
-  for (const double phi : {0.01, 0.1, 0.3, 0.5, 0.6})
+  for (const double phi : {0.01, 0.1, 0.3, 0.49})
     {
       const double slope = (pressure(phi + step) - pressure(phi - step)) / (2. * step);
       EXPECT_NEAR(hard_sphere_structure_factor(phi) * slope, 1., 1e-5) << phi;
     }
   EXPECT_EQ(hard_sphere_structure_factor(0.), 1.);
+  EXPECT_EQ(hard_sphere_structure_factor(0.6), 0.);
 }

@@ -184,7 +184,7 @@ TEST(Suspensions, MeanForceIsTheLawsFromDiluteToDense)
     for (const double reynolds : {0.1, 100.})
       {
         double         mean      = 0.;
-        const unsigned n_samples = std::lround(std::clamp(0.08 / solid, 1., 8.));
+        const unsigned n_samples = std::lround(std::clamp(0.4 / solid, 1., 8.));
         for (unsigned int sample = 1; sample <= n_samples; ++sample)
           {
             const auto   places = in_cylinder(hard_spheres(width, solid, sample), width);

@@ -57,9 +57,11 @@ namespace graupel
    *
    *   S = (1 - phi)^4 / ((1 + 2 phi)^2 + phi^3 (phi - 4)),
    *
-   * 1 for a dilute cloud, 0.02 in a dense bed. The mark of one sphere in a filtered
-   * field, less the hole that its neighbours leave around it, is S times its own. Source:
-   * Carnahan & Starling (1969), doi:10.1063/1.1672048.
+   * 1 for a dilute cloud, 0.02 where they freeze, at 0.494. Spheres in disorder that are
+   * denser are packed, not in equilibrium: from there to 0.545, where a crystal would
+   * melt, it goes to 0. The mark of one sphere in a filtered field, less the hole that
+   * its neighbours leave around it, is S times its own. Source: Carnahan & Starling
+   * (1969), doi:10.1063/1.1672048.
    */
   double hard_sphere_structure_factor(const double solid_fraction);
 } // namespace graupel

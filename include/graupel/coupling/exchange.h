@@ -80,7 +80,7 @@ namespace graupel
    * known: the solid fraction phi_0 (Filter::self_density()). Among others it fills the
    * hole that they leave around it, and what is left is the part S(phi_s), by the
    * structure factor of hard spheres in the surroundings of the solid fraction phi_s = 1
-   * - alpha - S phi_0: all of it for a lone sphere, 2 % in a dense bed. The law is
+   * - alpha - S phi_0: all of it for a lone sphere, nothing in a packed bed. The law is
    * evaluated at phi_s. A force F slows the fluid that the particle feels down by k F,
    *
    *   k = S(phi_s) screened_mobility(s), s^2 = 4 l^2 + 2/3 sum over k of w_pk |x_k -
