@@ -124,8 +124,7 @@ TEST(FewParticles, OneFeelsTheLawInClearFluidWhateverTheMesh)
 
 TEST(FewParticles, ItsOwnMarkIsKnownOnALattice)
 {
-  // The cells in the middle of the cylinder are nearly a lattice: 5e-3. A Gaussian that
-  // is widened by the variance of the weights instead errs by a tenth on such cells.
+  // The cells in the middle of the cylinder are nearly a lattice: 5e-3.
   for (const unsigned int times : {1u, 2u})
     {
       const double length = 6e-4;
