@@ -156,6 +156,7 @@ namespace graupel
              const double           diameter,
              const double           scale)
     : drag_law(&find_drag_law(parameters.law))
+    , around(fluid)
     , scale(scale)
     , reynolds_per_slip(fluid.density * scale * diameter / fluid.viscosity)
     , beta_per_drag_number(dealii::numbers::PI / 8. * fluid.viscosity * scale * diameter)

@@ -1,22 +1,12 @@
 #include <graupel/base/parameters.h>
 #include <graupel/coupling/exchange.h>
 
-#include <sstream>
-
 namespace graupel
 {
   namespace
   {
     // Of the filtered solid fraction at a particle, whatever the filter's overshoot [-].
     constexpr double least_solids = 1e-3;
-
-    [[noreturn]] void
-    fail_at(const dealii::Point<3> &position, const std::string &reason)
-    {
-      std::ostringstream message;
-      message << "At the particle at (" << position << ") m: " << reason;
-      throw std::runtime_error(message.str());
-    }
   } // namespace
 
   void
@@ -113,7 +103,7 @@ namespace graupel
     transfer.update(store);
     deposit_void_fraction(particles);
     check_void_fraction(particles);
-    law_alpha = law_void_fractions(particles);
+    law_alpha = law_void_fractions();
     of_slip   = smooth_power(-1);
     of_drag   = result.shares_pressure ? smooth_power(-2) : of_slip;
   }
@@ -133,38 +123,6 @@ namespace graupel
       }
     if (added)
       added->follow(flow, filter);
-  }
-
-  void
-  Exchange::find_drag_coefficients(const ParticleArrays &particles)
-  {
-    const unsigned int                 n = particles.n_owned;
-    std::array<std::vector<double>, 3> velocity;
-    for (unsigned int i = 0; i < 3; ++i)
-      transfer.sample(velocity[i], smooth_velocity[i]);
-
-    beta.resize(n);
-    slip.resize(n);
-    for (unsigned int row = 0; row < n; ++row)
-      {
-        dealii::Tensor<1, 3> relative;
-        for (unsigned int i = 0; i < 3; ++i)
-          relative[i] = velocity[i][row] - particles.body[row].velocity[i];
-        const double a = law_alpha[row];
-        slip[row]      = relative.norm() / (of_slip[row] * a);
-        try
-          {
-            beta[row] =
-              drags[particles.type[row]].beta(a, slip[row], particles.body[row].radius) /
-              (of_drag[row] * a * a);
-          }
-        catch (const std::exception &error)
-          {
-            fail_at(particles.body[row].position,
-                    error.what() + (", where the void fraction of the flow is " +
-                                    std::to_string(flow_alpha[row])));
-          }
-      }
   }
 
   void
@@ -388,8 +346,8 @@ namespace graupel
     for (unsigned int row = 0; row < particles.n_owned; ++row)
       {
         const double radius = particles.body[row].radius, a = law_alpha[row];
-        const double slope =
-          drags[particles.type[row]].slope(a, slip[row], radius) / (of_drag[row] * a * a);
+        const double slope = drags[particles.type[row]].slope(a, slip[row], radius) /
+                             (of_drag[row] * a * a * (1. - own_part[row]));
         const double mass =
           particles.mass[row] + (added ? added->virtual_mass()[row] : 0.);
         step = std::min(step, graupel::stable_step(flow_alpha[row], mass, slope));

@@ -1,4 +1,5 @@
 #include <graupel/base/parameters.h>
+#include <graupel/closures/self_disturbance.h>
 #include <graupel/coupling/exchange.h>
 
 #include <sstream>
@@ -14,15 +15,10 @@ namespace graupel
     // Less than this is no void fraction of spheres, whatever the filter's overshoot [-].
     constexpr double impossible = 0.1;
     // A bed is no looser than the second; what is looser than the first is none [-].
-    constexpr double no_bed = 0.25, bed = 0.4;
-
-    // Part of a Gaussian in three dimensions within this many standard deviations.
-    double
-    gaussian_within(const double x)
-    {
-      return std::erf(x / std::sqrt(2.)) -
-             std::sqrt(2. / dealii::numbers::PI) * x * std::exp(-0.5 * x * x);
-    }
+    constexpr double no_bed = 0.05, bed = 0.15;
+    // The surroundings of a particle, which say what counts of itself, are found so
+    // often.
+    constexpr unsigned int corrections = 4;
   } // namespace
 
   double
@@ -90,24 +86,28 @@ namespace graupel
     throw InputError("Coupling/filter length", reason.str());
   }
 
+  double
+  Exchange::own_solid(const unsigned int row, const unsigned int filters) const
+  {
+    const ParticleTransfer::Place &place = transfer.places()[row];
+    return volume[row] * filter.self_density(place.edge, place.mixing, filters);
+  }
+
   std::vector<double>
-  Exchange::surrounding_solids(const ParticleArrays &particles) const
+  Exchange::surrounding_solids()
   {
     std::vector<double> solid(flow_alpha.size());
+    isolation.resize(solid.size());
     for (unsigned int row = 0; row < solid.size(); ++row)
       {
-        // Depositing and sampling spread it, too.
         const double all = 1. - flow_alpha[row];
-        const double variance =
-          2. * filter_length * filter_length + 2. / 3. * transfer.variances()[row];
-        const double deviation =
-          std::sqrt(std::max(variance, std::numeric_limits<double>::min()));
-        const double own = std::min(
-          all,
-          volume[row] / std::pow(2. * dealii::numbers::PI * deviation * deviation, 1.5));
-        const double hole = gaussian_within(2. * particles.body[row].radius / deviation);
-        const double others = all - own;
-        solid[row] = others + std::min(own, hole / std::max(1. - hole, 1e-6) * others);
+        const double own = std::min(all, own_solid(row, 1));
+        solid[row]       = all - own;
+        for (unsigned int n = 0; n < corrections; ++n)
+          {
+            isolation[row] = hard_sphere_structure_factor(solid[row]);
+            solid[row]     = all - isolation[row] * own;
+          }
       }
     return solid;
   }
@@ -147,16 +147,23 @@ namespace graupel
   }
 
   std::vector<double>
-  Exchange::law_void_fractions(const ParticleArrays &particles)
+  Exchange::law_void_fractions()
   {
     transfer.sample(flow_alpha, result.void_fraction);
-    const std::vector<double> solid = surrounding_solids(particles);
-    std::vector<double>       alpha(solid.size(), 1.);
+    surroundings = surrounding_solids();
+    std::vector<double> alpha(surroundings.size(), 1.);
     if (law.sharp_surface)
-      alpha = surface_factors(solid);
-    for (unsigned int row = 0; row < solid.size(); ++row)
-      alpha[row] = std::max(1. - solid[row] * alpha[row] * law.solid_ratio,
-                            std::min(flow_alpha[row], densest));
+      alpha = surface_factors(surroundings);
+    for (unsigned int row = 0; row < alpha.size(); ++row)
+      {
+        // At a surface the neighbours are as close as within the bed.
+        const double factor = alpha[row];
+        isolation[row]      = hard_sphere_structure_factor(factor * surroundings[row]);
+        surroundings[row] =
+          std::max(0., 1. - flow_alpha[row] - isolation[row] * own_solid(row, 1));
+        alpha[row] = std::max(1. - surroundings[row] * factor * law.solid_ratio,
+                              std::min(flow_alpha[row], densest));
+      }
     return alpha;
   }
 
@@ -169,6 +176,8 @@ namespace graupel
     filter.smooth(smooth_scratch, scratch);
     std::vector<double> values;
     transfer.sample(values, smooth_scratch);
+    for (unsigned int row = 0; row < values.size(); ++row)
+      values[row] *= 1. + (exponent + 1. / 3.) * isolation[row] * own_solid(row, 2);
     return values;
   }
 } // namespace graupel

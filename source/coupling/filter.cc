@@ -14,10 +14,20 @@ namespace graupel
     // Half of l^2 times the largest eigenvalue up to which one polynomial serves;
     // beyond it Bessel functions come near the end of double precision.
     constexpr double largest_exponent = 200.;
+
+    // exp(-x) I_n(x), for n = 0 and 1.
+    double
+    scaled_bessel(const unsigned int n, const double x)
+    {
+      return x > largest_exponent
+               ? (1. - (4. * n - 1.) / (8. * x)) / std::sqrt(2. * dealii::numbers::PI * x)
+               : std::exp(-x) * boost::math::cyl_bessel_i(n, x);
+    }
   } // namespace
 
   Filter::Filter(const NodalSpace &nodes, const double length)
     : nodes(nodes)
+    , length(length)
     , coefficients(1, 1.)
   {
     nodes.initialize(inverse_measure);
@@ -27,7 +37,7 @@ namespace graupel
     if (length > 0.)
       {
         assemble();
-        find_polynomial(length);
+        find_polynomial();
       }
   }
 
@@ -74,7 +84,7 @@ namespace graupel
   }
 
   void
-  Filter::find_polynomial(const double length)
+  Filter::find_polynomial()
   {
     const double half = 0.5 * length * length * largest_eigenvalue;
     repetitions       = static_cast<unsigned int>(std::ceil(half / largest_exponent));
@@ -90,6 +100,21 @@ namespace graupel
       at_zero += (k % 2 == 0 ? 1. : -1.) * coefficients[k];
     for (double &coefficient : coefficients)
       coefficient /= at_zero;
+  }
+
+  double
+  Filter::self_density(const std::array<double, 3> &edge,
+                       const std::array<double, 3> &mixing,
+                       const unsigned int           times) const
+  {
+    double density = 1.;
+    for (unsigned int i = 0; i < 3; ++i)
+      {
+        const double x    = 2. * times * length * length / (edge[i] * edge[i]);
+        const double here = scaled_bessel(0, x), beside = scaled_bessel(1, x);
+        density *= (here - 2. * mixing[i] * (here - beside)) / edge[i];
+      }
+    return density;
   }
 
   void

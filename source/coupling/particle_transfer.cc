@@ -2,6 +2,22 @@
 
 namespace graupel
 {
+  namespace
+  {
+    // Mean lengths of the four edges in each direction [m].
+    template <typename Cell>
+    std::array<double, 3>
+    mean_edges(const Cell &cell)
+    {
+      std::array<double, 3> length{};
+      for (unsigned int a = 0; a < dealii::GeometryInfo<3>::vertices_per_cell; ++a)
+        for (unsigned int i = 0; i < 3; ++i)
+          if (!(a & (1u << i)))
+            length[i] += 0.25 * cell->vertex(a).distance(cell->vertex(a | (1u << i)));
+      return length;
+    }
+  } // namespace
+
   ParticleTransfer::ParticleTransfer(const NodalSpace &nodes)
     : nodes(nodes)
   {
@@ -12,7 +28,7 @@ namespace graupel
   {
     cells.clear();
     weights.clear();
-    variance.clear();
+    place.clear();
     const auto &partitioner = *nodes.measure().get_partitioner();
     store.visit_cells([&](const auto                          &cell,
                           const unsigned int                   first_row,
@@ -32,20 +48,15 @@ namespace graupel
       cells.push_back(entry);
 
       weights.resize(std::max<std::size_t>(weights.size(), entry.end_row));
-      variance.resize(weights.size());
+      place.resize(weights.size());
+      const auto edges = mean_edges(dof_cell);
       for (unsigned int p = 0; p < locations.size(); ++p)
         {
-          dealii::Tensor<1, 3> mean;
-          double               square = 0.;
           for (unsigned int a = 0; a < n_nodes; ++a)
-            {
-              const double weight = nodes.fe.shape_value(a, locations[p]);
-              const auto   offset = dof_cell->vertex(a) - dof_cell->vertex(0);
-              mean += weight * offset;
-              square += weight * offset.norm_square();
-              weights[first_row + p][a] = weight;
-            }
-          variance[first_row + p] = square - mean.norm_square();
+            weights[first_row + p][a] = nodes.fe.shape_value(a, locations[p]);
+          place[first_row + p].edge = edges;
+          for (unsigned int i = 0; i < 3; ++i)
+            place[first_row + p].mixing[i] = locations[p][i] * (1. - locations[p][i]);
         }
     });
   }

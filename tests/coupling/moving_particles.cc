@@ -165,7 +165,7 @@ TEST(StableStep, AtRestKnowsStokesAndNewton)
 TEST(MovingParticles, OneSphereInWaterReachesTheLawsTerminalVelocity)
 {
   // Twice as heavy as water, a cork and a bubble's light shell, with steps up to four
-  // times the explicit limit. 3 %: the sphere's own blob is left in the flow.
+  // times the explicit limit. 1 %: the wake is not a steady Oseenlet's all the time.
   for (const auto &[particle, density, dt] : {std::tuple(1e-3, 2000., 1e-2),
                                               std::tuple(2e-3, 500., 1e-2),
                                               std::tuple(2e-3, 50., 5e-3)})
@@ -186,7 +186,7 @@ TEST(MovingParticles, OneSphereInWaterReachesTheLawsTerminalVelocity)
       std::cout << "density " << density << ": slip " << slip << " m/s of " << expected
                 << " after " << n << " steps, limit "
                 << tube.exchange.stable_step(tube.dem.particles()) << " s" << std::endl;
-      EXPECT_NEAR(slip, expected, 0.03 * expected);
+      EXPECT_NEAR(slip, expected, 0.01 * expected);
     }
 }
 

@@ -122,6 +122,12 @@ namespace graupel
 
     const DragLaw &law() const;
 
+    const FluidProperties &
+    fluid() const
+    {
+      return around;
+    }
+
   private:
     enum class Form
     {
@@ -134,6 +140,7 @@ namespace graupel
     double drag_number(const double alpha, const double reynolds) const;
 
     const DragLaw                           *drag_law;
+    FluidProperties                          around;
     Form                                     form;
     double                                   scale;
     double                                   reynolds_per_slip;

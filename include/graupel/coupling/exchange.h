@@ -75,16 +75,26 @@ namespace graupel
    * The surface: chi is 1 where the solid fraction is above half of its mean over the
    * particles, and 0 below; 1 - alpha' = (1 - alpha) max(1, chi / S chi), a normalised
    * convolution. Source of those: Knutsson & Westin, CVPR (1993),
-   * doi:10.1109/CVPR.1993.341081. It belongs to beds: where 1 - alpha' would be below 0.4
-   * for the particle and for the mean of all, the factor goes to 1, which it is below
-   * 0.25.
+   * doi:10.1109/CVPR.1993.341081. It belongs to beds: where 1 - alpha' would be below
+   * 0.15 for the particle and for the mean of all, the factor goes to 1, which it is
+   * below 0.05: there chi would tell single particles from each other.
    *
-   * Its own volume is a part phi_0 of the filtered solid fraction at a particle. Among
-   * others it fills the hole that they leave around it; a lone sphere would take itself
-   * for a bed. So phi_0 counts with no more than what the others, whose part phi_n is,
-   * would fill that hole with: h / (1 - h) phi_n, h the part of the filter's kernel
-   * within one diameter. At solid fractions above 0.17, with the default filter, it
-   * counts in full.
+   * What a particle does to the fields that it feels. Its mark in a filtered field is
+   * known: the solid fraction phi_0 (Filter::self_density()). Among others it fills the
+   * hole that they leave around it, and what is left is the part S(phi_s), by the
+   * structure factor of hard spheres in the surroundings of the solid fraction phi_s = 1
+   * - alpha - S phi_0: all of it for a lone sphere, nothing in a packed bed. The law is
+   * evaluated at phi_s. A force F slows the fluid that the particle feels down by k F,
+   *
+   *   k = S(phi_s) screened_mobility(s), s^2 = 4 l^2 + 2/3 sum over k of w_pk |x_k -
+   * x_p|^2,
+   *
+   * so that the undisturbed slip is the felt one over 1 - k beta_p, found by repetition,
+   * and so is the coefficient that acts on the felt one. k beta_p is at most 1/2; for a
+   * lone sphere in slow flow, with the default filter, it is 0.28. And the fluid goes
+   * around a lone mark instead of through it: alpha^-n at it counts 1 + phi_0 / 3 instead
+   * of 1 + n phi_0, as the flow through a sphere of another conductivity does. Source of
+   * the latter: Maxwell, A Treatise on Electricity and Magnetism (1873), 314.
    */
   class Exchange
   {
@@ -191,14 +201,23 @@ namespace graupel
     void deposit_void_fraction(const ParticleArrays &particles);
     void check_void_fraction(const ParticleArrays &particles) const;
     // Of the law at each own particle.
-    std::vector<double> law_void_fractions(const ParticleArrays &particles);
-    // 1 - alpha at each own particle, without its own part where it is alone.
-    std::vector<double> surrounding_solids(const ParticleArrays &particles) const;
+    std::vector<double> law_void_fractions();
+    // The solid fraction that a particle finds of itself after so many filters [-].
+    double own_solid(const unsigned int row, const unsigned int filters) const;
+    // 1 - alpha at each own particle, without what is left of its own mark.
+    std::vector<double> surrounding_solids();
     // chi / S chi, at least 1, at each own particle: above 1 at the surface.
     std::vector<double> surface_factors(const std::vector<double> &solid);
     // Mean over all particles.
     double mean(const std::vector<double> &values) const;
     void   find_drag_coefficients(const ParticleArrays &particles);
+    // Of a particle that feels the slip @p felt [m/s].
+    void find_coefficient(const unsigned int row,
+                          const DragOfType  &drag,
+                          const double       radius,
+                          const double       felt);
+    // k, velocity of its disturbance where it is over its force [s/kg].
+    double own_mobility(const unsigned int row, const FluidProperties &fluid) const;
     void   find_answers();
     void   find_added_forces(const ParticleArrays &particles);
     // M/dt of a row, or 0.
@@ -250,6 +269,9 @@ namespace graupel
     std::vector<double>  flow_alpha;      // alpha by row
     std::vector<double>  law_alpha;       // alpha' by row
     std::vector<double>  slip;            // of the law, by row [m/s]
+    std::vector<double>  surroundings;    // phi_s by row
+    std::vector<double>  isolation;       // S(phi_s) by row
+    std::vector<double>  own_part;        // k F over the slip, by row
     std::vector<double>  of_slip;         // W S alpha^-1 by row
     std::vector<double>  of_drag;         // W S alpha^-2, in model B alpha^-1, by row
     dealii::Tensor<1, 3> fluid_force;

@@ -43,6 +43,22 @@ namespace graupel
     /** x = S f, with the same remarks. */
     void smooth(NodalVector &x, const NodalVector &f) const;
 
+    /**
+     * What a particle that is deposited on the nodes, filtered so many @p times and
+     * sampled again finds of itself, a unit of it [1/m^3]. @p edge: lengths of its cell's
+     * edges [m],
+     * @p mixing: x (1 - x) in each direction, with x its place along the edge [-]. Exact
+     * on a lattice, where the filter is a product of exponentials of the second
+     * difference,
+     *
+     *   product over i of (K_0 - 2 x (1 - x) (K_0 - K_1)) / h,  K_n = exp(-2 t) I_n(2 t),
+     *
+     * with t = times l^2 / h^2 and Bessel's functions I_n.
+     */
+    double self_density(const std::array<double, 3> &edge,
+                        const std::array<double, 3> &mixing,
+                        const unsigned int           times) const;
+
     /** Products with K that one application costs. */
     unsigned int
     degree() const
@@ -52,11 +68,12 @@ namespace graupel
 
   private:
     void assemble();
-    void find_polynomial(const double length);
+    void find_polynomial();
     void apply_once(NodalVector &x) const;
     void shifted_product(NodalVector &y, const NodalVector &x) const;
 
     const NodalSpace                      &nodes;
+    const double                           length; // [m]
     dealii::TrilinosWrappers::SparseMatrix stiffness;
     NodalVector                            inverse_measure;
     double              largest_eigenvalue = 0.; // an upper bound [1/m^2]

@@ -25,12 +25,29 @@ namespace graupel
     /** W f at each own particle; the ghosts of @p field must be up to date. */
     void sample(std::vector<double> &values, const NodalVector &field) const;
 
-    /** By row: how far a particle's weights lie from it, sum of w_pk |x_k - x_p|^2 [m^2].
-     */
-    const std::vector<double> &
-    variances() const
+    /** Where a particle is in its cell. */
+    struct Place
     {
-      return variance;
+      /** Mean lengths of the cell's edges in each of its directions [m]. */
+      std::array<double, 3> edge;
+      /** x (1 - x) in each, with the part x of the edge that is behind the particle [-].
+       */
+      std::array<double, 3> mixing;
+
+      /** How far its weights lie from it, sum of w_pk |x_k - x_p|^2 [m^2]. */
+      double
+      variance() const
+      {
+        return edge[0] * edge[0] * mixing[0] + edge[1] * edge[1] * mixing[1] +
+               edge[2] * edge[2] * mixing[2];
+      }
+    };
+
+    /** By row. */
+    const std::vector<Place> &
+    places() const
+    {
+      return place;
     }
 
   private:
@@ -46,7 +63,7 @@ namespace graupel
     const NodalSpace                        &nodes;
     std::vector<Cell>                        cells;
     std::vector<std::array<double, n_nodes>> weights; // by row
-    std::vector<double>                      variance;
+    std::vector<Place>                       place;
   };
 } // namespace graupel
 
