@@ -19,7 +19,7 @@ namespace
     VesselMesh mesh(parameters.cylinder, parameters.mesh, MPI_COMM_WORLD);
     Dem        dem(parameters.dem, mesh, costs);
     dem.insert({dealii::Point<3>(0., 0., 2e-3)});
-    CoupledFlow flow(parameters, 1., mesh, dem, costs);
+    CoupledFlow flow(parameters, dem.original_sauter_diameter(), 1., mesh, dem, costs);
     for (unsigned int row = 0; row < dem.particles().n_owned; ++row)
       dem.particles().external_force[row][2] = -force;
     try
