@@ -257,6 +257,13 @@ class InTime(CaseTest):
         values = {"Flow/superficial velocities": 0.3, "Particles/scale": 2, "Filling/count": 20}
         self.assertIn("across the vessel", self.run_case("bed20", values, "--check").said)
 
+    def test_cells_that_smear_a_bed_are_told(self):
+        # Spheres of 1.2 mm: cells of 3.5 diameters are told, those of 2.5 are not.
+        values = {"Flow/superficial velocities": 0.3, "Particles/diameter": 1.2e-3}
+        coarse = {**values, "Mesh/cell size": 4.2e-3}
+        self.assertIn("smear the ends", self.run_case("bed20", coarse, "--check").said)
+        self.assertNotIn("smear the ends", self.run_case("bed20", values, "--check").said)
+
     def test_corks_float_to_the_lid(self):
         run = self.finished("cork")
         # 100 spheres at a void fraction of 0.46 are 7 mm of bed, here below the lid.

@@ -15,6 +15,10 @@ namespace graupel
     constexpr double least_filter = 0.99, largest_filter = 0.25;
     // Simulated particles across a vessel, below which walls are all that there is [-].
     constexpr double fewest_across = 5.;
+    // Cells in simulated diameters, beyond which a bed's ends are smeared over them: 500
+    // spheres of packed-bed/short.prm lose 7 % of their drop from cells of 1.9 to 3.1 of
+    // them [-].
+    constexpr double largest_cell = 3.;
 
     double
     response_at_rest(const RunParameters &parameters,
@@ -84,6 +88,25 @@ namespace graupel
            << parameters.dem.particles.scale;
       said.push_back(text.str());
     }
+
+    void
+    warn_of_cells(const RunParameters &parameters, std::vector<std::string> &said)
+    {
+      const double edge =
+        std::max(parameters.mesh.cell_size, parameters.mesh.cell_height);
+      const double diameter = parameters.simulated_diameter();
+      const bool   has_bed =
+        parameters.filling.method != "none" && parameters.filling.count != 1;
+      if (!has_bed || edge <= largest_cell * diameter)
+        return;
+      std::ostringstream text;
+      text << "cells of " << edge << " m are " << edge / diameter
+           << " simulated particles of " << diameter
+           << " m long: they smear the ends of a bed, which loses pressure drop by that. "
+              "Try Mesh/cell size = "
+           << 2. * diameter << ", or adaption";
+      said.push_back(text.str());
+    }
   } // namespace
 
   StepLimits
@@ -124,6 +147,7 @@ namespace graupel
     warn_of_step(parameters, said);
     warn_of_filter(parameters, said);
     warn_of_scale(parameters, said);
+    warn_of_cells(parameters, said);
     return said;
   }
 } // namespace graupel
