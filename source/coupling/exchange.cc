@@ -37,6 +37,15 @@ namespace graupel
       "the filter, which costs a bed 1.1 standard deviations of its length.",
       dealii::Patterns::Selection("sharp|smeared"));
     prm.add_parameter(
+      "void fraction gradient",
+      void_fraction_gradient,
+      "foscolo-gibilaro: the drag of a particle that moves freely is that of the void "
+      "fraction two thirds of a diameter upstream, the elasticity of a fluidised bed "
+      "(Foscolo & Gibilaro (1984, 1987)): without it waves of void fraction grow in "
+      "every "
+      "bed that moves. A bed at rest has none of it. none: where the particle is.",
+      dealii::Patterns::Selection("none|foscolo-gibilaro"));
+    prm.add_parameter(
       "mixture",
       mixture,
       "Drag in a bed of several sizes. sauter mean: the law is evaluated for the Sauter "
@@ -104,8 +113,9 @@ namespace graupel
     deposit_void_fraction(particles);
     check_void_fraction(particles);
     law_alpha = law_void_fractions();
-    of_slip   = smooth_power(-1);
-    of_drag   = result.shares_pressure ? smooth_power(-2) : of_slip;
+    find_solid_gradient();
+    of_slip = smooth_power(-1);
+    of_drag = result.shares_pressure ? smooth_power(-2) : of_slip;
   }
 
   void
@@ -129,8 +139,8 @@ namespace graupel
   Exchange::update_drag(const ParticleArrays &particles)
   {
     const CostSheet::Scope timing(costs, CostSheet::exchange);
-    find_drag_coefficients(particles);
     response = held_response(particles);
+    find_drag_coefficients(particles);
     find_added_forces(particles);
     answer.assign(particles.n_owned, 1.);
     result.solids.reset();
@@ -147,8 +157,8 @@ namespace graupel
                         const ParticleResponse &particle_response)
   {
     const CostSheet::Scope timing(costs, CostSheet::exchange);
-    find_drag_coefficients(particles);
     response = particle_response;
+    find_drag_coefficients(particles);
     find_added_forces(particles);
     find_answers();
     if (!result.solids)
@@ -345,7 +355,7 @@ namespace graupel
     double step = std::numeric_limits<double>::infinity();
     for (unsigned int row = 0; row < particles.n_owned; ++row)
       {
-        const double radius = particles.body[row].radius, a = law_alpha[row];
+        const double radius = particles.body[row].radius, a = felt_alpha[row];
         const double slope = drags[particles.type[row]].slope(a, slip[row], radius) /
                              (of_drag[row] * a * a * (1. - own_part[row]));
         const double mass =

@@ -90,7 +90,7 @@ namespace graupel
   Exchange::own_solid(const unsigned int row, const unsigned int filters) const
   {
     const ParticleTransfer::Place &place = transfer.places()[row];
-    return volume[row] * filter.self_density(place.edge, place.mixing, filters);
+    return volume[row] * filter.self_density(place.edge, place.part, filters);
   }
 
   std::vector<double>
@@ -165,6 +165,34 @@ namespace graupel
                               std::min(flow_alpha[row], densest));
       }
     return alpha;
+  }
+
+  void
+  Exchange::find_solid_gradient()
+  {
+    if (law.upstream == 0.)
+      return;
+    transfer.sample_gradient(solid_gradient, solid_fraction);
+    for (unsigned int row = 0; row < solid_gradient.size(); ++row)
+      {
+        const ParticleTransfer::Place &place = transfer.places()[row];
+        solid_gradient[row] -= isolation[row] * volume[row] *
+                               place.gradient(filter.self_slopes(place.edge, place.part));
+      }
+  }
+
+  double
+  Exchange::void_fraction_upstream(const unsigned int          row,
+                                   const double                diameter,
+                                   const dealii::Tensor<1, 3> &slip_velocity) const
+  {
+    const double speed = slip_velocity.norm();
+    const double here  = law_alpha[row];
+    if (law.upstream == 0. || !(speed > 0.))
+      return here;
+    const double difference = response.looseness[row] * law.upstream * diameter *
+                              (solid_gradient[row] * slip_velocity) / speed;
+    return std::clamp(here + difference, std::min(here, densest), 1.);
   }
 
   std::vector<double>

@@ -33,12 +33,15 @@ namespace graupel
 
     beta.resize(n);
     slip.resize(n);
+    felt_alpha.resize(n);
     own_part.assign(n, 0.);
     for (unsigned int row = 0; row < n; ++row)
       {
         dealii::Tensor<1, 3> felt;
         for (unsigned int i = 0; i < 3; ++i)
           felt[i] = velocity[i][row] - particles.body[row].velocity[i];
+        felt_alpha[row] =
+          void_fraction_upstream(row, 2. * particles.body[row].radius, felt);
         try
           {
             find_coefficient(
@@ -59,7 +62,7 @@ namespace graupel
                              const double       radius,
                              const double       felt)
   {
-    const double a    = law_alpha[row];
+    const double a    = felt_alpha[row];
     double      &part = own_part[row];
     for (unsigned int n = 0; n < repetitions; ++n)
       {
@@ -80,7 +83,7 @@ namespace graupel
     const double variance =
       4. * filter_length * filter_length + 2. / 3. * transfer.places()[row].variance();
     const double s = std::sqrt(std::max(variance, std::numeric_limits<double>::min()));
-    const double others = surroundings[row] / volume[row] * beta[row] / law_alpha[row];
+    const double others = surroundings[row] / volume[row] * beta[row] / felt_alpha[row];
     return isolation[row] * screened_mobility(fluid, s, slip[row], others);
   }
 } // namespace graupel

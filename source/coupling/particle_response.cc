@@ -18,6 +18,7 @@ namespace graupel
     ParticleResponse response;
     response.mobility.assign(particles.n_owned, 0.);
     response.yielding.assign(particles.n_owned, 0.);
+    response.looseness.assign(particles.n_owned, 0.);
     for (unsigned int row = 0; row < particles.n_owned; ++row)
       response.velocity.push_back(particles.body[row].velocity);
     return response;
@@ -44,6 +45,7 @@ namespace graupel
         const double square   = outside.norm_square();
         const double carried =
           square > 0. ? std::clamp(-(contact_force(row) * outside) / square, 0., 1.) : 0.;
+        response.looseness[row] = 1. - carried;
         const double loose =
           std::max(0., 1. - square / (clear_force * clear_force * weight.norm_square()));
         const double light   = std::clamp(density * volume / mass - 1., 0., 1.);

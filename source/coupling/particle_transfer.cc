@@ -4,13 +4,38 @@ namespace graupel
 {
   namespace
   {
+    constexpr unsigned int n_vertices = dealii::GeometryInfo<3>::vertices_per_cell;
+
+    // d psi_a / d x_i at the place x in the unit cell.
+    double
+    slope(const unsigned int a, const unsigned int i, const std::array<double, 3> &x)
+    {
+      double product = a & (1u << i) ? 1. : -1.;
+      for (unsigned int j = 0; j < 3; ++j)
+        if (j != i)
+          product *= a & (1u << j) ? x[j] : 1. - x[j];
+      return product;
+    }
+
+    // The inverse transposed Jacobian of the trilinear cell.
+    template <typename Cell>
+    dealii::Tensor<2, 3>
+    inverse_jacobian(const Cell &cell, const std::array<double, 3> &x)
+    {
+      dealii::Tensor<2, 3> transposed;
+      for (unsigned int a = 0; a < n_vertices; ++a)
+        for (unsigned int i = 0; i < 3; ++i)
+          transposed[i] += slope(a, i, x) * cell->vertex(a);
+      return invert(transposed);
+    }
+
     // Mean lengths of the four edges in each direction [m].
     template <typename Cell>
     std::array<double, 3>
     mean_edges(const Cell &cell)
     {
       std::array<double, 3> length{};
-      for (unsigned int a = 0; a < dealii::GeometryInfo<3>::vertices_per_cell; ++a)
+      for (unsigned int a = 0; a < n_vertices; ++a)
         for (unsigned int i = 0; i < 3; ++i)
           if (!(a & (1u << i)))
             length[i] += 0.25 * cell->vertex(a).distance(cell->vertex(a | (1u << i)));
@@ -56,7 +81,9 @@ namespace graupel
             weights[first_row + p][a] = nodes.fe.shape_value(a, locations[p]);
           place[first_row + p].edge = edges;
           for (unsigned int i = 0; i < 3; ++i)
-            place[first_row + p].mixing[i] = locations[p][i] * (1. - locations[p][i]);
+            place[first_row + p].part[i] = locations[p][i];
+          place[first_row + p].by_part =
+            inverse_jacobian(dof_cell, place[first_row + p].part);
         }
     });
   }
@@ -87,5 +114,22 @@ namespace graupel
       for (unsigned int row = cell.first_row; row < cell.end_row; ++row)
         for (unsigned int a = 0; a < n_nodes; ++a)
           values[row] += weights[row][a] * field.local_element(cell.local_nodes[a]);
+  }
+
+  void
+  ParticleTransfer::sample_gradient(std::vector<dealii::Tensor<1, 3>> &values,
+                                    const NodalVector                 &field) const
+  {
+    values.resize(weights.size());
+    for (const Cell &cell : cells)
+      for (unsigned int row = cell.first_row; row < cell.end_row; ++row)
+        {
+          dealii::Tensor<1, 3> by_part;
+          for (unsigned int a = 0; a < n_nodes; ++a)
+            for (unsigned int i = 0; i < 3; ++i)
+              by_part[i] +=
+                slope(a, i, place[row].part) * field.local_element(cell.local_nodes[a]);
+          values[row] = place[row].by_part * by_part;
+        }
   }
 } // namespace graupel

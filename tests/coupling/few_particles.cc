@@ -147,10 +147,43 @@ TEST(FewParticles, ItsOwnMarkIsKnownOnALattice)
       for (unsigned int row = 0; row < found.size(); ++row)
         {
           const auto  &place    = transfer.places()[row];
-          const double expected = filter.self_density(place.edge, place.mixing, times);
+          const double expected = filter.self_density(place.edge, place.part, times);
           EXPECT_NEAR(found[row] / expected, 1., 5e-3) << found[row];
         }
+      if (times > 1)
+        continue;
+      std::vector<dealii::Tensor<1, 3>> gradient;
+      transfer.sample_gradient(gradient, mark);
+      for (unsigned int row = 0; row < found.size(); ++row)
+        {
+          const auto &place = transfer.places()[row];
+          const auto  expected =
+            place.gradient(filter.self_slopes(place.edge, place.part));
+          EXPECT_LT((gradient[row] - expected).norm(), 0.05 * gradient[row].norm());
+          EXPECT_GT(gradient[row].norm(), 10. * found[row]);
+        }
     }
+}
+
+TEST(FewParticles, AGradientIsThatOfALinearField)
+{
+  Column           column({dealii::Point<3>(0.3e-3, -0.4e-3, 0.0105),
+                           dealii::Point<3>(2.1e-3, 3.2e-3, 0.006)},
+                1.4e-3);
+  ParticleTransfer transfer(column.nodes);
+  transfer.update(column.dem.store());
+  const dealii::Tensor<1, 3> slope({3., -2., 5.});
+  NodalVector                field;
+  column.nodes.initialize(field);
+  for (const auto &cell : column.nodes.owned_cells())
+    for (const unsigned int a : cell->vertex_indices())
+      if (const auto k = cell->vertex_dof_index(a, 0); column.nodes.owned.is_element(k))
+        field(k) = slope * cell->vertex(a);
+  field.update_ghost_values();
+  std::vector<dealii::Tensor<1, 3>> gradient;
+  transfer.sample_gradient(gradient, field);
+  for (const auto &found : gradient)
+    EXPECT_LT((found - slope).norm(), 1e-10);
 }
 
 TEST(FewParticles, AFilterThatDoesNotSpreadThemIsNamed)

@@ -22,6 +22,9 @@ namespace graupel
     /** "sharp": the drag law does not see that the filter smears the bed's surface;
      * "smeared": it does. */
     std::string bed_surface = "sharp";
+    /** "foscolo-gibilaro" or "none": whether loose particles feel the void fraction
+     * upstream of themselves (Exchange). */
+    std::string void_fraction_gradient = "foscolo-gibilaro";
     /** "sauter mean" or "own diameter": how a mixture of sizes feels the drag. */
     std::string mixture = "sauter mean";
 
@@ -40,7 +43,13 @@ namespace graupel
     bool sharp_surface = true;
     /** Solid fraction of the bed that is meant over that of the simulated one [-]. */
     double solid_ratio = 1.;
+    /** How far upstream of itself a loose particle feels the void fraction, in diameters
+     * [-]; 0: where it is. */
+    double upstream = 0.;
   };
+
+  /** That of Foscolo & Gibilaro, in diameters [-] (Exchange). */
+  constexpr double foscolo_gibilaro_distance = 2. / 3.;
 
   /**
    * The traffic between particles and fluid, in both directions by one operator
@@ -78,6 +87,20 @@ namespace graupel
    * doi:10.1109/CVPR.1993.341081. It belongs to beds: where 1 - alpha' would be below
    * 0.15 for the particle and for the mean of all, the factor goes to 1, which it is
    * below 0.05: there chi would tell single particles from each other.
+   *
+   * In motion: a loose particle (ParticleResponse::looseness, c) feels the void fraction
+   * two thirds of a diameter d upstream, by the gradient of the solid fraction of the
+   * others in its cell, along the slip s = (W S u)_p - v_p:
+   *
+   *   alpha' + c 2/3 d grad (1 - alpha - S(phi_s) phi_0) s / |s|.
+   *
+   * To a bed that hangs in the flow this is the elastic force of Foscolo & Gibilaro,
+   * -2/3 d dF/d(1 - alpha) grad (1 - alpha) with the drag F, which they find for the
+   * layers of a suspension: waves of void fraction run on with
+   * (3.2 g d (1 - alpha) (1 - rho / rho_p))^1/2, and grow only where the fluid carries
+   * them faster. Without it they grow in every bed that moves. d is the simulated
+   * diameter, the scale on which they would grow; a bed at rest has none of it. Source:
+   * Foscolo & Gibilaro, Chem. Eng. Sci. 39 (1984) 1667 and 42 (1987) 1489.
    *
    * What a particle does to the fields that it feels. Its mark in a filtered field is
    * known: the solid fraction phi_0 (Filter::self_density()). Among others it fills the
@@ -210,6 +233,11 @@ namespace graupel
     std::vector<double> surface_factors(const std::vector<double> &solid);
     // Mean over all particles.
     double mean(const std::vector<double> &values) const;
+    void   find_solid_gradient();
+    // What a particle with this slip feels [-].
+    double void_fraction_upstream(const unsigned int          row,
+                                  const double                diameter,
+                                  const dealii::Tensor<1, 3> &slip_velocity) const;
     void   find_drag_coefficients(const ParticleArrays &particles);
     // Of a particle that feels the slip @p felt [m/s].
     void find_coefficient(const unsigned int row,
@@ -258,24 +286,26 @@ namespace graupel
     Medium                        result;
     NodalVector                   solid_fraction, scratch, smooth_scratch;
 
-    NodalVectorField     interstitial;    // u [m/s]
-    NodalVectorField     smooth_velocity; // S u [m/s]
-    NodalVectorField     gradient;        // grad p [Pa/m]
-    NodalVectorField     smooth_gradient; // S grad p [Pa/m]
-    std::vector<double>  volume, beta;    // by row [m^3], [kg/s]
-    std::vector<double>  answer;          // D by row
-    double               old_part = 0.;   // of put_back_old_fields() [-]
-    ParticleResponse     response;        // by row
-    std::vector<double>  flow_alpha;      // alpha by row
-    std::vector<double>  law_alpha;       // alpha' by row
-    std::vector<double>  slip;            // of the law, by row [m/s]
-    std::vector<double>  surroundings;    // phi_s by row
-    std::vector<double>  isolation;       // S(phi_s) by row
-    std::vector<double>  own_part;        // k F over the slip, by row
-    std::vector<double>  of_slip;         // W S alpha^-1 by row
-    std::vector<double>  of_drag;         // W S alpha^-2, in model B alpha^-1, by row
-    dealii::Tensor<1, 3> fluid_force;
-    double               momentum_error = 0., volume_error = 0.;
+    NodalVectorField    interstitial;    // u [m/s]
+    NodalVectorField    smooth_velocity; // S u [m/s]
+    NodalVectorField    gradient;        // grad p [Pa/m]
+    NodalVectorField    smooth_gradient; // S grad p [Pa/m]
+    std::vector<double> volume, beta;    // by row [m^3], [kg/s]
+    std::vector<double> answer;          // D by row
+    double              old_part = 0.;   // of put_back_old_fields() [-]
+    ParticleResponse    response;        // by row
+    std::vector<double> flow_alpha;      // alpha by row
+    std::vector<double> law_alpha;       // alpha' by row, where the particle is
+    std::vector<double> felt_alpha;      // and upstream, if it is loose
+    std::vector<double> slip;            // of the law, by row [m/s]
+    std::vector<double> surroundings;    // phi_s by row
+    std::vector<double> isolation;       // S(phi_s) by row
+    std::vector<double> own_part;        // k F over the slip, by row
+    std::vector<double> of_slip;         // W S alpha^-1 by row
+    std::vector<double> of_drag;         // W S alpha^-2, in model B alpha^-1, by row
+    std::vector<dealii::Tensor<1, 3>> solid_gradient; // of the others, by row [1/m]
+    dealii::Tensor<1, 3>              fluid_force;
+    double                            momentum_error = 0., volume_error = 0.;
 
     std::optional<AddedForces> added;
   };

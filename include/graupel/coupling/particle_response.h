@@ -21,6 +21,8 @@ namespace graupel
     /** By row: mobility of a held particle for a change of the force since the last step,
      * as contacts may give way; it acts on continuity alone [s/kg]. */
     std::vector<double> yielding;
+    /** By row: 1 for one that nothing holds, 0 for one that contacts hold [-]. */
+    std::vector<double> looseness;
     /** The fluid's step [s]; infinite for one that seeks a steady flow. */
     double step = std::numeric_limits<double>::infinity();
   };

@@ -25,21 +25,38 @@ namespace graupel
     /** W f at each own particle; the ghosts of @p field must be up to date. */
     void sample(std::vector<double> &values, const NodalVector &field) const;
 
+    /** grad f in the cell of each own particle [1/m]. */
+    void sample_gradient(std::vector<dealii::Tensor<1, 3>> &values,
+                         const NodalVector                 &field) const;
+
     /** Where a particle is in its cell. */
     struct Place
     {
       /** Mean lengths of the cell's edges in each of its directions [m]. */
       std::array<double, 3> edge;
-      /** x (1 - x) in each, with the part x of the edge that is behind the particle [-].
-       */
-      std::array<double, 3> mixing;
+      /** The part of them that is behind the particle, x [-]. */
+      std::array<double, 3> part;
+      /** From derivatives by x to the gradient, the inverse transposed Jacobian [1/m]. */
+      dealii::Tensor<2, 3> by_part;
 
       /** How far its weights lie from it, sum of w_pk |x_k - x_p|^2 [m^2]. */
       double
       variance() const
       {
-        return edge[0] * edge[0] * mixing[0] + edge[1] * edge[1] * mixing[1] +
-               edge[2] * edge[2] * mixing[2];
+        double sum = 0.;
+        for (unsigned int i = 0; i < 3; ++i)
+          sum += edge[i] * edge[i] * part[i] * (1. - part[i]);
+        return sum;
+      }
+
+      /** The gradient of what has these slopes along the edges. */
+      dealii::Tensor<1, 3>
+      gradient(const std::array<double, 3> &slopes) const
+      {
+        dealii::Tensor<1, 3> derivatives;
+        for (unsigned int i = 0; i < 3; ++i)
+          derivatives[i] = slopes[i] * edge[i];
+        return by_part * derivatives;
       }
     };
 

@@ -58,7 +58,11 @@ namespace graupel
     particles_and_fluid.emplace(
       parameters.filter_length(),
       parameters.coupling.model == "A",
-      LawVoidFraction{parameters.coupling.bed_surface == "sharp", solid_ratio},
+      LawVoidFraction{parameters.coupling.bed_surface == "sharp",
+                      solid_ratio,
+                      parameters.coupling.void_fraction_gradient == "none"
+                        ? 0.
+                        : foscolo_gibilaro_distance},
       parameters.drags(original_diameter),
       *node_space,
       costs,
