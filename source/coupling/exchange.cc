@@ -7,6 +7,9 @@ namespace graupel
   {
     // Of the filtered solid fraction at a particle, whatever the filter's overshoot [-].
     constexpr double least_solids = 1e-3;
+    // How far upstream Foscolo & Gibilaro's layers feel the void fraction, in diameters,
+    // and from which density over the particles' on a fluid is taken for a liquid [-].
+    constexpr double foscolo_gibilaro_distance = 2. / 3., least_liquid = 0.05;
   } // namespace
 
   void
@@ -41,10 +44,11 @@ namespace graupel
       void_fraction_gradient,
       "foscolo-gibilaro: the drag of a particle that moves freely is that of the void "
       "fraction two thirds of a diameter upstream, the elasticity of a fluidised bed "
-      "(Foscolo & Gibilaro (1984, 1987)): without it waves of void fraction grow in "
-      "every "
-      "bed that moves. A bed at rest has none of it. none: where the particle is.",
-      dealii::Patterns::Selection("none|foscolo-gibilaro"));
+      "(Foscolo & Gibilaro (1984, 1987)): without it waves of void fraction grow in a "
+      "bed in a liquid. A bed at rest has none of it. none: where the particle is. auto: "
+      "foscolo-gibilaro in a fluid of more than a twentieth of the particles' density, "
+      "none in a gas, whose bubbles it damps more than measurement says.",
+      dealii::Patterns::Selection("auto|none|foscolo-gibilaro"));
     prm.add_parameter(
       "mixture",
       mixture,
@@ -63,6 +67,15 @@ namespace graupel
     // smeared further (doc/design.md).
     return number_or_word("Coupling/filter length", filter_length, {"auto"})
       .value_or(simulated_diameter / std::sqrt(2.));
+  }
+
+  double
+  CouplingParameters::upstream(const double density_ratio) const
+  {
+    const bool is_wanted =
+      void_fraction_gradient == "foscolo-gibilaro" ||
+      (void_fraction_gradient == "auto" && density_ratio > least_liquid);
+    return is_wanted ? foscolo_gibilaro_distance : 0.;
   }
 
   void

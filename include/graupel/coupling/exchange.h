@@ -22,9 +22,9 @@ namespace graupel
     /** "sharp": the drag law does not see that the filter smears the bed's surface;
      * "smeared": it does. */
     std::string bed_surface = "sharp";
-    /** "foscolo-gibilaro" or "none": whether loose particles feel the void fraction
-     * upstream of themselves (Exchange). */
-    std::string void_fraction_gradient = "foscolo-gibilaro";
+    /** "foscolo-gibilaro", "none", or "auto", the former in liquids: whether loose
+     * particles feel the void fraction upstream of themselves (Exchange). */
+    std::string void_fraction_gradient = "auto";
     /** "sauter mean" or "own diameter": how a mixture of sizes feels the drag. */
     std::string mixture = "sauter mean";
 
@@ -34,6 +34,10 @@ namespace graupel
 
     /** The filter length in use [m]. */
     double length(const double simulated_diameter) const;
+
+    /** LawVoidFraction::upstream in use, in a fluid of @p density_ratio times the density
+     * of the particles [-]. */
+    double upstream(const double density_ratio) const;
   };
 
   /** At which void fraction the drag law is evaluated. */
@@ -47,9 +51,6 @@ namespace graupel
      * [-]; 0: where it is. */
     double upstream = 0.;
   };
-
-  /** That of Foscolo & Gibilaro, in diameters [-] (Exchange). */
-  constexpr double foscolo_gibilaro_distance = 2. / 3.;
 
   /**
    * The traffic between particles and fluid, in both directions by one operator
@@ -88,9 +89,9 @@ namespace graupel
    * 0.15 for the particle and for the mean of all, the factor goes to 1, which it is
    * below 0.05: there chi would tell single particles from each other.
    *
-   * In motion: a loose particle (ParticleResponse::looseness, c) feels the void fraction
-   * two thirds of a diameter d upstream, by the gradient of the solid fraction of the
-   * others in its cell, along the slip s = (W S u)_p - v_p:
+   * In motion: where that is wanted, a loose particle (ParticleResponse::looseness, c)
+   * feels the void fraction two thirds of a diameter d upstream, by the gradient of the
+   * solid fraction of the others in its cell, along the slip s = (W S u)_p - v_p:
    *
    *   alpha' + c 2/3 d grad (1 - alpha - S(phi_s) phi_0) s / |s|.
    *

@@ -60,9 +60,8 @@ namespace graupel
       parameters.coupling.model == "A",
       LawVoidFraction{parameters.coupling.bed_surface == "sharp",
                       solid_ratio,
-                      parameters.coupling.void_fraction_gradient == "none"
-                        ? 0.
-                        : foscolo_gibilaro_distance},
+                      parameters.coupling.upstream(parameters.fluid.density /
+                                                   parameters.dem.particles.density)},
       parameters.drags(original_diameter),
       *node_space,
       costs,
