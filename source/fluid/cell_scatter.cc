@@ -112,9 +112,7 @@ namespace graupel
   }
 
   void
-  CellScatter::condense(const unsigned int          cell,
-                        dealii::FullMatrix<double> &cell_matrix,
-                        dealii::Vector<double>     &cell_rhs) const
+  CellScatter::condense(const unsigned int cell, CellSystem &system) const
   {
     const auto &found = constrained[direct[cell]];
     for (const Constrained &line : found)
@@ -123,41 +121,51 @@ namespace graupel
           constraints.get_inhomogeneity(space.cell_unknowns[cell][line.unknown]);
         if (value != 0.)
           for (unsigned int r = 0; r < n_unknowns; ++r)
-            cell_rhs[r] -= cell_matrix(r, line.unknown) * value;
+            system.right(r) -= system(r, line.unknown) * value;
       }
     for (const Constrained &line : found)
       {
         for (const auto &[other, weight] : line.weights)
           {
-            cell_rhs[other] += weight * cell_rhs[line.unknown];
+            system.right(other) += weight * system.right(line.unknown);
             for (unsigned int c = 0; c < n_unknowns; ++c)
-              cell_matrix(other, c) += weight * cell_matrix(line.unknown, c);
+              system(other, c) += weight * system(line.unknown, c);
           }
         for (const auto &[other, weight] : line.weights)
           for (unsigned int r = 0; r < n_unknowns; ++r)
-            cell_matrix(r, other) += weight * cell_matrix(r, line.unknown);
-        cell_rhs[line.unknown] = 0.;
+            system(r, other) += weight * system(r, line.unknown);
+        system.right(line.unknown) = 0.;
       }
     for (const Constrained &line : found)
-      cell_matrix(line.unknown, line.unknown) =
-        std::abs(cell_matrix(line.unknown, line.unknown));
+      system(line.unknown, line.unknown) = std::abs(system(line.unknown, line.unknown));
   }
 
   void
-  CellScatter::add(const unsigned int          cell,
-                   dealii::FullMatrix<double> &cell_matrix,
-                   dealii::Vector<double>     &cell_rhs,
-                   BlockVector                &rhs) const
+  CellScatter::add_by_constraints(const unsigned int cell,
+                                  CellSystem        &system,
+                                  BlockVector       &rhs) const
+  {
+    dealii::FullMatrix<double> cell_matrix(n_unknowns, n_unknowns);
+    dealii::Vector<double>     cell_rhs(n_unknowns);
+    for (unsigned int r = 0; r < n_unknowns; ++r)
+      {
+        cell_rhs[r] = system.right(r);
+        for (unsigned int c = 0; c < n_unknowns; ++c)
+          cell_matrix(r, c) = system(r, c);
+      }
+    const auto &unknowns = space.cell_unknowns[cell];
+    constraints.distribute_local_to_global(cell_matrix, unknowns, matrix);
+    constraints.distribute_local_to_global(cell_rhs, unknowns, rhs, cell_matrix);
+  }
+
+  void
+  CellScatter::add(const unsigned int cell, CellSystem &system, BlockVector &rhs) const
   {
     if (direct[cell] == dealii::numbers::invalid_unsigned_int)
-      {
-        const auto &unknowns = space.cell_unknowns[cell];
-        constraints.distribute_local_to_global(cell_matrix, unknowns, matrix);
-        constraints.distribute_local_to_global(cell_rhs, unknowns, rhs, cell_matrix);
-      }
+      add_by_constraints(cell, system, rhs);
     else
       {
-        condense(cell, cell_matrix, cell_rhs);
+        condense(cell, system);
         const auto   &nodes = space.cell_nodes[cell];
         const Places &place = places[direct[cell]];
         for (unsigned int r = 0; r < n_unknowns; ++r)
@@ -168,11 +176,10 @@ namespace graupel
                                        block[1].values + block[1].row_starts[row]};
             for (unsigned int c = 0; c < n_unknowns; ++c)
               if (place[r][c] != nowhere)
-                into[block_of(c)][place[r][c]] += cell_matrix(r, c);
-            rhs.block(block_of(r)).local_element(row) += cell_rhs[r];
+                into[block_of(c)][place[r][c]] += system(r, c);
+            rhs.block(block_of(r)).local_element(row) += system.right(r);
           }
       }
-    cell_matrix = 0.;
-    cell_rhs    = 0.;
+    system = CellSystem();
   }
 } // namespace graupel

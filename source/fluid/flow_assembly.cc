@@ -31,44 +31,44 @@ namespace graupel
             state.solids_by_flux[a]     = solids.by_velocity.local_element(node) / alpha;
             state.solids_by_gradient[a] = solids.by_gradient.local_element(node);
             for (unsigned int i = 0; i < 3; ++i)
-              state.solid_flux[a][i] = solids.flux[i].local_element(node);
+              state.solid_flux[i][a] = solids.flux[i].local_element(node);
           }
         for (unsigned int i = 0; i < 3; ++i)
           {
-            state.flux[a][i]        = carrier[i].local_element(node);
-            state.history[a][i]     = flux_history[i].local_element(node);
-            state.drag_source[a][i] = medium.drag_source[i].local_element(node);
-            state.force[a][i]       = medium.force[i].local_element(node);
+            state.flux[i][a]        = carrier[i].local_element(node);
+            state.history[i][a]     = flux_history[i].local_element(node);
+            state.drag_source[i][a] = medium.drag_source[i].local_element(node);
+            state.force[i][a]       = medium.force[i].local_element(node);
           }
       }
     return state;
   }
 
-  dealii::Tensor<1, 3>
-  FlowSolver::subscale_history(const unsigned int point) const
+  EightVectors
+  FlowSolver::subscale_history(const unsigned int cell) const
   {
-    return subscale_scheme.old * unresolved_now[point] +
-           subscale_scheme.older * unresolved_old[point];
+    EightVectors result;
+    for (unsigned int i = 0; i < 3; ++i)
+      for (unsigned int q = 0; q < points_per_cell; ++q)
+        result[i][q] = subscale_scheme.old * unresolved_now[cell][i][q] +
+                       subscale_scheme.older * unresolved_old[cell][i][q];
+    return result;
   }
 
   void
   FlowSolver::update_unresolved(const Medium &medium)
   {
-    const FlowCoefficients             coefficients = this->coefficients();
-    std::array<double, nodes_per_cell> pressure;
+    const FlowCoefficients coefficients = this->coefficients();
+    Eight                  pressure;
     for (unsigned int cell = 0; cell < space.n_cells(); ++cell)
       {
         const CellState state = gather(cell, medium);
         for (unsigned int a = 0; a < nodes_per_cell; ++a)
           pressure[a] = relative_pressure.local_element(space.cell_nodes[cell][a]);
-        for (unsigned int q = 0; q < space.points_per_cell; ++q)
-          {
-            const unsigned int number = cell * space.points_per_cell + q;
-            const auto         known  = subscale_history(number);
-            unresolved_old[number]    = unresolved_now[number];
-            unresolved_now[number] =
-              unresolved_flux(coefficients, state, space.shapes[number], known, pressure);
-          }
+        const EightVectors known = subscale_history(cell);
+        unresolved_old[cell]     = unresolved_now[cell];
+        unresolved_now[cell] =
+          unresolved_flux(coefficients, state, space.shapes[cell], known, pressure);
       }
     ++known_unresolved;
   }
@@ -100,22 +100,17 @@ namespace graupel
     for (unsigned int cell = 0; cell < space.n_cells(); ++cell)
       {
         const CellState state = gather(cell, medium);
-        for (unsigned int q = 0; q < space.points_per_cell; ++q)
-          add_flow_point(coefficients,
-                         state,
-                         space.shapes[cell * space.points_per_cell + q],
-                         subscale_history(cell * space.points_per_cell + q),
-                         cell_matrix,
-                         cell_rhs);
-        scatter->add(cell, cell_matrix, cell_rhs, rhs);
+        assemble_flow(
+          coefficients, state, space.shapes[cell], subscale_history(cell), cell_system);
+        scatter->add(cell, cell_system, rhs);
       }
 
     assemble_inlets();
     assemble_outlets(medium);
     add_nodal_drag(medium);
     matrix.compress(dealii::VectorOperation::add);
+    node_matrix->take(matrix);
     rhs.compress(dealii::VectorOperation::add);
-    assemble_schur(medium);
   }
 
   void
@@ -126,9 +121,9 @@ namespace graupel
         {
           const double normal_flux = space.normal_component(point, inlet.flux);
           for (unsigned int a = 0; a < nodes_per_cell; ++a)
-            cell_rhs[unknowns_per_node * a + 3] -=
+            cell_system.rhs[3][a] -=
               point.weight * point.value[a] * normal_flux;
-          scatter->add(point.cell, cell_matrix, cell_rhs, rhs);
+          scatter->add(point.cell, cell_system, rhs);
         }
   }
 
@@ -175,7 +170,7 @@ namespace graupel
         const unsigned int row   = unknowns_per_node * a;
         const double       share = point.weight * point.value[a];
         for (unsigned int i = 0; i < 3; ++i)
-          cell_rhs[row + i] +=
+          cell_system.rhs[i][a] +=
             share * (traction[i] - state.pressure_share[a] * pressure * point.normal[i]);
         for (unsigned int b = 0; b < nodes_per_cell; ++b)
           {
@@ -183,18 +178,18 @@ namespace graupel
             const unsigned int column = unknowns_per_node * b;
             for (unsigned int i = 0; i < 3; ++i)
               {
-                cell_matrix(row + i, column + 3) -=
+                cell_system(row + i, column + 3) -=
                   state.pressure_share[a] * mass * point.normal[i];
-                cell_matrix(row + 3, column + i) += mass * point.normal[i];
+                cell_system(row + 3, column + i) += mass * point.normal[i];
                 const double entering = inflow * mass / state.void_fraction[b];
-                cell_matrix(row + i, column + i) += entering;
+                cell_system(row + i, column + i) += entering;
                 for (unsigned int j = 0; j < 3; ++j)
-                  cell_matrix(row + i, column + j) -=
+                  cell_system(row + i, column + j) -=
                     (1. - returning) * entering * point.normal[i] * point.normal[j];
               }
           }
       }
-    scatter->add(point.cell, cell_matrix, cell_rhs, rhs);
+    scatter->add(point.cell, cell_system, rhs);
   }
 
   void
@@ -252,20 +247,20 @@ namespace graupel
               state.pressure_share[a] * (1. + state.solids_by_flux[a]) / nodes_per_cell;
             of_solids += state.solids_by_gradient[a] / nodes_per_cell;
             resistance += state.resistance[a] / nodes_per_cell;
-            speed += state.flux[a].norm() / state.void_fraction[a] / nodes_per_cell;
+            speed += std::hypot(state.flux[0][a], state.flux[1][a], state.flux[2][a]) /
+                     state.void_fraction[a] / nodes_per_cell;
           }
         const double reaction = density * (scheme.now + 2. * speed / state.size) +
                                 resistance + viscosity / (state.size * state.size);
         conductivity[cell] = alpha / reaction + of_solids;
-        for (unsigned int q = 0; q < space.points_per_cell; ++q)
-          {
-            const ShapePoint &point = space.shapes[cell * space.points_per_cell + q];
-            for (unsigned int a = 0; a < nodes_per_cell; ++a)
-              for (unsigned int b = 0; b < nodes_per_cell; ++b)
-                local(a, b) += point.weight * conductivity[cell] *
-                               (point.gradient[a] * point.gradient[b] +
-                                level * point.value[a] * point.value[b]);
-          }
+        for (const ShapePoint &point : space.shapes[cell])
+          for (unsigned int a = 0; a < nodes_per_cell; ++a)
+            for (unsigned int b = 0; b < nodes_per_cell; ++b)
+              local(a, b) += point.weight * conductivity[cell] *
+                             (point.gradient[0][a] * point.gradient[0][b] +
+                              point.gradient[1][a] * point.gradient[1][b] +
+                              point.gradient[2][a] * point.gradient[2][b] +
+                              level * point.value[a] * point.value[b]);
         distribute_nodes(cell);
       }
     for (const auto &outlet : boundaries.outlets())

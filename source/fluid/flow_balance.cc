@@ -136,18 +136,15 @@ namespace graupel
     for (unsigned int cell = 0; cell < space.n_cells(); ++cell)
       {
         double surplus = 0.;
-        for (unsigned int q = 0; q < space.points_per_cell; ++q)
-          {
-            const ShapePoint &point = space.shapes[cell * space.points_per_cell + q];
-            for (unsigned int a = 0; a < nodes_per_cell; ++a)
-              {
-                const unsigned int node = space.cell_nodes[cell][a];
-                double             rate = point.value[a] * alpha_rate.local_element(node);
-                for (unsigned int i = 0; i < 3; ++i)
-                  rate += point.gradient[a][i] * volume_flux[i].local_element(node);
-                surplus += point.weight * rate;
-              }
-          }
+        for (const ShapePoint &point : space.shapes[cell])
+          for (unsigned int a = 0; a < nodes_per_cell; ++a)
+            {
+              const unsigned int node = space.cell_nodes[cell][a];
+              double             rate = point.value[a] * alpha_rate.local_element(node);
+              for (unsigned int i = 0; i < 3; ++i)
+                rate += point.gradient[i][a] * volume_flux[i].local_element(node);
+              surplus += point.weight * rate;
+            }
         if (std::abs(surplus) > worst)
           {
             worst  = std::abs(surplus);

@@ -62,7 +62,7 @@ namespace graupel
     {
       Tensor<2, 3> result;
       for (unsigned int a = 0; a < nodes_per_cell; ++a)
-        result += dealii::outer_product(u[a], point.gradient[a]);
+        result += dealii::outer_product(u[a], point.gradient_of(a));
       return result;
     }
 
@@ -99,9 +99,8 @@ namespace graupel
               const unsigned int node = space.cell_nodes[cell][a];
               u[a][i] = flux_now[i].local_element(node) / alpha_old.local_element(node);
             }
-        for (unsigned int q = 0; q < space.points_per_cell; ++q)
+        for (const ShapePoint &point : space.shapes[cell])
           {
-            const ShapePoint  &point = space.shapes[cell * space.points_per_cell + q];
             const Tensor<2, 3> g = gradient(point, u), stress = viscous_stress(g);
             Tensor<1, 3>       here;
             for (unsigned int a = 0; a < nodes_per_cell; ++a)
@@ -111,7 +110,7 @@ namespace graupel
                 const double weight = point.weight * point.value[a];
                 carried[a] += weight * (g * here);
                 spin[a] += weight * rotation(g);
-                friction[a] -= point.weight * (stress * point.gradient[a]);
+                friction[a] -= point.weight * (stress * point.gradient_of(a));
               }
           }
         acceleration.add(space.cell_nodes[cell], carried);

@@ -83,14 +83,11 @@ namespace graupel
   {
     dealii::Tensor<1, 3> force;
     for (unsigned int cell = 0; cell < space.n_cells(); ++cell)
-      for (unsigned int q = 0; q < space.points_per_cell; ++q)
-        {
-          const ShapePoint &point = space.shapes[cell * space.points_per_cell + q];
-          for (unsigned int a = 0; a < nodes_per_cell; ++a)
-            force += point.weight *
-                     relative_pressure.local_element(space.cell_nodes[cell][a]) *
-                     point.gradient[a];
-        }
+      for (const ShapePoint &point : space.shapes[cell])
+        for (unsigned int a = 0; a < nodes_per_cell; ++a)
+          force += point.weight *
+                   relative_pressure.local_element(space.cell_nodes[cell][a]) *
+                   point.gradient_of(a);
     // On a boundary with a prescribed pressure it is that one which acts.
     for (const auto &outlet : boundaries.outlets())
       for (const auto &point : space.boundary(outlet.id))

@@ -98,12 +98,12 @@ namespace graupel
   void
   FlowSolver::append_unresolved(VesselMesh::CellBytes &bytes) const
   {
-    const std::size_t size = space.points_per_cell * sizeof(dealii::Tensor<1, 3>);
+    const std::size_t size = sizeof(EightVectors);
     for (std::size_t cell = 0; cell < bytes.size(); ++cell)
       for (const auto *values : {&unresolved_now, &unresolved_old})
         {
           const auto *begin =
-            reinterpret_cast<const char *>(&(*values)[cell * space.points_per_cell]);
+            reinterpret_cast<const char *>(&(*values)[cell]);
           bytes[cell].insert(bytes[cell].end(), begin, begin + size);
         }
   }
@@ -111,13 +111,12 @@ namespace graupel
   void
   FlowSolver::take_unresolved(VesselMesh::CellBytes &bytes)
   {
-    const std::size_t size = space.points_per_cell * sizeof(dealii::Tensor<1, 3>);
+    const std::size_t size = sizeof(EightVectors);
     for (std::size_t cell = 0; cell < bytes.size(); ++cell)
       for (auto *values : {&unresolved_old, &unresolved_now})
         {
           const std::size_t rest = bytes[cell].size() - size;
-          std::memcpy(
-            &(*values)[cell * space.points_per_cell], bytes[cell].data() + rest, size);
+          std::memcpy(&(*values)[cell], bytes[cell].data() + rest, size);
           bytes[cell].resize(rest);
         }
   }
@@ -141,7 +140,8 @@ namespace graupel
     subscale_scheme.now = recipe->subscale_rate;
     fastest             = recipe->speed;
     assemble_system(medium);
-    preconditioner.refresh(matrix, schur);
+    assemble_schur(medium);
+    preconditioner->refresh(schur);
     built = recipe;
   }
 } // namespace graupel

@@ -4,170 +4,274 @@ namespace graupel
 {
   namespace
   {
-    using dealii::Tensor;
+    using VectorLanes = std::array<EightLanes, 3>;
 
-    // The fields of the cell at the point.
-    struct PointState
+    EightLanes
+    lanes(const Eight &values)
     {
-      double       void_fraction      = 0.;
-      double       resistance         = 0.;
-      double       pressure_share     = 0.;
-      double       void_fraction_rate = 0.;
-      double       flux_divergence    = 0.;
-      double       solids_by_gradient = 0.;
-      double       solid_divergence   = 0.;
-      Tensor<1, 3> solid_flux;
-      Tensor<1, 3> flux;
-      Tensor<1, 3> history;
-      Tensor<1, 3> drag_source;
-      // The known terms of the momentum residual [N/m^3].
-      Tensor<1, 3> source;
-    };
+      return EightLanes(values.data(), std::experimental::element_aligned);
+    }
 
-    PointState
-    interpolate(const FlowCoefficients &coefficients,
-                const CellState        &state,
-                const ShapePoint       &point)
+    VectorLanes
+    lanes(const EightVectors &values)
     {
-      PointState result;
-      for (unsigned int a = 0; a < nodes_per_cell; ++a)
-        {
-          const double psi = point.value[a];
-          result.void_fraction += psi * state.void_fraction[a];
-          result.resistance += psi * state.resistance[a];
-          result.pressure_share += psi * state.pressure_share[a];
-          result.void_fraction_rate += psi * state.void_fraction_rate[a];
-          result.flux_divergence += point.gradient[a] * state.flux[a];
-          result.solids_by_gradient += psi * state.solids_by_gradient[a];
-          result.solid_divergence += point.gradient[a] * state.solid_flux[a];
-          result.solid_flux += psi * state.solid_flux[a];
-          result.flux += psi * state.flux[a];
-          result.history += psi * state.history[a];
-          result.drag_source += psi * state.drag_source[a];
-          result.source += psi * state.force[a];
-        }
-      result.source += result.drag_source - coefficients.density * result.history;
+      return {lanes(values[0]), lanes(values[1]), lanes(values[2])};
+    }
+
+    Eight
+    stored(const EightLanes &values)
+    {
+      Eight result;
+      values.copy_to(result.data(), std::experimental::element_aligned);
       return result;
     }
 
-    // Acceleration and convection of the flux at node b.
-    double
-    inertia(const FlowCoefficients &coefficients,
-            const CellState        &state,
-            const ShapePoint       &point,
-            const PointState       &here,
-            const unsigned int      b)
+    EightLanes
+    product(const VectorLanes &x, const VectorLanes &y)
     {
-      return coefficients.density *
-             (coefficients.rate * point.value[b] +
-              (here.flux * point.gradient[b] + here.flux_divergence * point.value[b]) /
-                state.void_fraction[b]);
+      return x[0] * y[0] + x[1] * y[1] + x[2] * y[2];
+    }
+
+    // Fields of a cell at its points.
+    class PointFields
+    {
+    public:
+      PointFields(const FlowCoefficients &coefficients,
+                  const CellState        &state,
+                  const ShapePoints      &points)
+        : points(points)
+      {
+        for (unsigned int a = 0; a < nodes_per_cell; ++a)
+          for (unsigned int q = 0; q < points_per_cell; ++q)
+            value_of[a][q] = points[q].value[a];
+        flux           = at_points(state.flux);
+        void_fraction  = at_points(state.void_fraction);
+        pressure_share = at_points(state.pressure_share);
+        for (unsigned int i = 0; i < 3; ++i)
+          source[i] =
+            at_points(stored(lanes(state.force[i]) + lanes(state.drag_source[i]) -
+                             coefficients.density * lanes(state.history[i])));
+        flux_divergence = divergence(state.flux);
+
+        const EightLanes resistance = lanes(at_points(state.resistance));
+        const double     convection =
+          2. * coefficients.density * coefficients.speed / state.size;
+        const double diffusion = 12. * coefficients.viscosity / (state.size * state.size);
+        tau                    = stored(1. / (coefficients.density * coefficients.subscale_rate +
+                           sqrt(resistance * resistance + convection * convection +
+                                diffusion * diffusion)));
+      }
+
+      Eight
+      at_points(const Eight &nodal) const
+      {
+        EightLanes sum = 0.;
+        for (unsigned int a = 0; a < nodes_per_cell; ++a)
+          sum += lanes(value_of[a]) * nodal[a];
+        return stored(sum);
+      }
+
+      EightVectors
+      at_points(const EightVectors &nodal) const
+      {
+        return {at_points(nodal[0]), at_points(nodal[1]), at_points(nodal[2])};
+      }
+
+      Eight
+      divergence(const EightVectors &nodal) const
+      {
+        Eight             result;
+        const VectorLanes field = lanes(nodal);
+        for (unsigned int q = 0; q < points_per_cell; ++q)
+          result[q] = reduce(product(lanes(points[q].gradient), field));
+        return result;
+      }
+
+    private:
+      const ShapePoints                &points;
+      std::array<Eight, nodes_per_cell> value_of; // basis functions, by point
+
+    public:
+      EightVectors flux;
+      Eight        flux_divergence;
+      Eight        void_fraction;
+      Eight        pressure_share;
+      Eight        tau;    // time scale of the subscales over density [m^3 s/kg]
+      EightVectors source; // known terms of the momentum residual [N/m^3]
+    };
+
+    // Of the fluxes of a cell's nodes at one point.
+    struct Transport
+    {
+      Transport(const FlowCoefficients &coefficients,
+                const CellState        &state,
+                const ShapePoint       &point,
+                const PointFields      &fields,
+                const unsigned int      q)
+        : value(lanes(point.value))
+        , gradient(lanes(point.gradient))
+        , along_flux(fields.flux[0][q] * gradient[0] + fields.flux[1][q] * gradient[1] +
+                     fields.flux[2][q] * gradient[2])
+        , inertia(coefficients.density *
+                  (coefficients.rate * value +
+                   (along_flux + fields.flux_divergence[q] * value) /
+                     lanes(state.void_fraction)))
+        , drag(lanes(state.resistance) * value)
+      {
+      }
+
+      EightLanes  value;      // basis functions
+      VectorLanes gradient;   // theirs
+      EightLanes  along_flux; // q grad
+      EightLanes  inertia;    // acceleration and convection
+      EightLanes  drag;
+    };
+
+    // What the matrix has of a point, by node of the column, times the point's weight.
+    struct PointTerms
+    {
+      EightLanes galerkin; // acceleration, convection and, where it is not on nodes, drag
+      EightLanes strong;   // the same with all drag: the residual
+      EightLanes friction;
+      EightLanes continuity;   // div q, and what the subscales carry of the momentum
+      VectorLanes gradient;    // without the weight
+      VectorLanes by_friction; // friction grad
+      VectorLanes by_divergence;
+      double      of_pressure; // factor of the pressure's Laplacian
+      Eight       upwind;      // test function of SUPG, without the weight
+    };
+
+    void
+    assemble_matrix(const CellState                               &state,
+                    const ShapePoints                             &points,
+                    const PointFields                             &fields,
+                    const std::array<PointTerms, points_per_cell> &terms,
+                    CellSystem                                    &system)
+    {
+      for (unsigned int a = 0; a < nodes_per_cell; ++a)
+        {
+          EightLanes entry[unknowns_per_node][unknowns_per_node];
+          for (auto &row : entry)
+            for (EightLanes &value : row)
+              value = 0.;
+          for (unsigned int q = 0; q < points_per_cell; ++q)
+            {
+              const ShapePoint &point = points[q];
+              const PointTerms &term  = terms[q];
+              const double      grad[]{
+                point.gradient[0][a], point.gradient[1][a], point.gradient[2][a]};
+              const EightLanes of_gradients = grad[0] * term.gradient[0] +
+                                              grad[1] * term.gradient[1] +
+                                              grad[2] * term.gradient[2];
+              const EightLanes diagonal = point.value[a] * term.galerkin +
+                                          term.upwind[a] * term.strong +
+                                          term.friction * of_gradients;
+              const double of_gradient =
+                point.weight * (state.pressure_share[a] * point.value[a] +
+                                term.upwind[a] * fields.pressure_share[q]);
+              for (unsigned int i = 0; i < 3; ++i)
+                {
+                  for (unsigned int j = 0; j < 3; ++j)
+                    entry[i][j] +=
+                      grad[j] * term.by_friction[i] + grad[i] * term.by_divergence[j];
+                  entry[i][i] += diagonal;
+                  entry[i][3] += of_gradient * term.gradient[i];
+                  entry[3][i] += grad[i] * term.continuity;
+                }
+              entry[3][3] += term.of_pressure * of_gradients;
+            }
+          for (unsigned int i = 0; i < unknowns_per_node; ++i)
+            for (unsigned int j = 0; j < unknowns_per_node; ++j)
+              system.matrix[a][i][j] = stored(entry[i][j]);
+        }
     }
   } // namespace
 
-  double
-  stabilization_time(const FlowCoefficients &coefficients,
-                     const double            resistance,
-                     const double            size)
-  {
-    const double convection = 2. * coefficients.density * coefficients.speed / size;
-    const double diffusion  = 12. * coefficients.viscosity / (size * size);
-    return 1. / (coefficients.density * coefficients.subscale_rate +
-                 std::sqrt(resistance * resistance + convection * convection +
-                           diffusion * diffusion));
-  }
-
   void
-  add_flow_point(const FlowCoefficients     &coefficients,
-                 const CellState            &state,
-                 const ShapePoint           &point,
-                 const Tensor<1, 3>         &subscale_history,
-                 dealii::FullMatrix<double> &matrix,
-                 dealii::Vector<double>     &rhs)
+  assemble_flow(const FlowCoefficients &coefficients,
+                const CellState        &state,
+                const ShapePoints      &points,
+                const EightVectors     &subscale_history,
+                CellSystem             &system)
   {
-    const double     rho   = coefficients.density;
-    const PointState here  = interpolate(coefficients, state, point);
-    const double     alpha = here.void_fraction;
-    const double     speed = here.flux.norm() / alpha;
-    const double     tau = stabilization_time(coefficients, here.resistance, state.size);
-    const double     gamma =
-      coefficients.grad_div * (rho * speed * state.size + coefficients.viscosity) / alpha;
-    const double mu_alpha = coefficients.viscosity * (state.whole_stress ? 1. : alpha);
-
-    std::array<double, nodes_per_cell> galerkin; // acceleration and convection of node b
-    std::array<double, nodes_per_cell> strong;   // the same with the drag: its residual
-    std::array<double, nodes_per_cell> upwind;   // test function of SUPG
+    const double      rho = coefficients.density;
+    const PointFields fields(coefficients, state, points);
+    const VectorLanes flux  = lanes(fields.flux);
+    const EightLanes  alpha = lanes(fields.void_fraction);
+    const EightLanes  speed = sqrt(product(flux, flux)) / alpha;
+    const Eight       gamma = stored(coefficients.grad_div *
+                               (rho * speed * state.size + coefficients.viscosity) / alpha);
+    const Eight mu_alpha = stored(coefficients.viscosity *
+                                  (state.whole_stress ? EightLanes(1.) : alpha));
+    const Eight        solids_by_gradient = fields.at_points(state.solids_by_gradient);
+    const Eight        solid_divergence   = fields.divergence(state.solid_flux);
+    const Eight        void_fraction_rate = fields.at_points(state.void_fraction_rate);
+    const EightVectors solid_flux         = fields.at_points(state.solid_flux);
+    const EightVectors drag_source        = fields.at_points(state.drag_source);
+    const EightLanes   with_solids        = 1. + lanes(state.solids_by_flux);
     // Where the drag is put on the nodes, it enters the residual only.
-    const double       drag_here      = state.drag_on_nodes ? 0. : 1.;
-    const Tensor<1, 3> galerkin_force = here.source - (1. - drag_here) * here.drag_source;
-    const Tensor<1, 3> residual_source = here.source - rho * subscale_history;
-    for (unsigned int b = 0; b < nodes_per_cell; ++b)
-      {
-        galerkin[b]       = inertia(coefficients, state, point, here, b);
-        const double drag = state.resistance[b] * point.value[b];
-        strong[b]         = galerkin[b] + drag;
-        galerkin[b] += drag_here * drag;
-        upwind[b] = tau * rho * (here.flux * point.gradient[b]) / alpha;
-      }
+    const double drag_here = state.drag_on_nodes ? 0. : 1.;
 
-    for (unsigned int a = 0; a < nodes_per_cell; ++a)
+    std::array<PointTerms, points_per_cell>   terms;
+    std::array<EightLanes, unknowns_per_node> right;
+    right.fill(0.);
+    for (unsigned int q = 0; q < points_per_cell; ++q)
       {
-        const Tensor<1, 3> grad_a = point.gradient[a];
-        const double       psi_a  = point.value[a];
-        const unsigned int row    = unknowns_per_node * a;
-        for (unsigned int b = 0; b < nodes_per_cell; ++b)
-          {
-            const Tensor<1, 3> grad_b      = point.gradient[b];
-            const unsigned int column      = unknowns_per_node * b;
-            const double       friction    = mu_alpha / state.void_fraction[b];
-            const double       with_solids = 1. + state.solids_by_flux[b];
-            const double       diagonal =
-              psi_a * galerkin[b] + upwind[a] * strong[b] + friction * (grad_a * grad_b);
-            const double pressure_weight =
-              state.pressure_share[a] * psi_a + upwind[a] * here.pressure_share;
-            for (unsigned int i = 0; i < 3; ++i)
-              {
-                matrix(row + i, column + i) += point.weight * diagonal;
-                for (unsigned int j = 0; j < 3; ++j)
-                  matrix(row + i, column + j) +=
-                    point.weight *
-                    (friction * grad_a[j] * grad_b[i] +
-                     (gamma * with_solids - 2. / 3. * friction) * grad_a[i] * grad_b[j]);
-                matrix(row + i, column + 3) += point.weight * pressure_weight * grad_b[i];
-                matrix(row + 3, column + i) +=
-                  point.weight * grad_a[i] *
-                  (tau * strong[b] - with_solids * point.value[b]);
-              }
-            matrix(row + 3, column + 3) +=
-              point.weight * (tau * here.pressure_share + here.solids_by_gradient) *
-              (grad_a * grad_b);
-          }
+        const Transport  of(coefficients, state, points[q], fields, q);
+        const double     weight = points[q].weight, tau = fields.tau[q];
+        const EightLanes upwind = tau * rho / fields.void_fraction[q] * of.along_flux;
+        PointTerms      &term   = terms[q];
+        term.galerkin           = weight * (of.inertia + drag_here * of.drag);
+        term.strong             = weight * (of.inertia + of.drag);
+        term.friction           = weight * mu_alpha[q] / lanes(state.void_fraction);
+        term.continuity         = tau * term.strong - weight * with_solids * of.value;
+        term.gradient           = of.gradient;
+        term.of_pressure =
+          weight * (tau * fields.pressure_share[q] + solids_by_gradient[q]);
+        term.upwind = stored(upwind);
 
+        const EightLanes of_divergence =
+          weight * gamma[q] * with_solids - 2. / 3. * term.friction;
+        const double of_known = gamma[q] * (void_fraction_rate[q] + solid_divergence[q]);
+        right[3] -= weight * of.value * lanes(state.void_fraction_rate);
         for (unsigned int i = 0; i < 3; ++i)
-          rhs[row + i] +=
-            point.weight *
-            (psi_a * galerkin_force[i] + upwind[a] * residual_source[i] -
-             gamma * grad_a[i] * (here.void_fraction_rate + here.solid_divergence));
-        rhs[row + 3] +=
-          point.weight * (tau * (grad_a * residual_source) + grad_a * here.solid_flux -
-                          psi_a * state.void_fraction_rate[a]);
+          {
+            term.by_friction[i]   = term.friction * of.gradient[i];
+            term.by_divergence[i] = of_divergence * of.gradient[i];
+            const double galerkin =
+              fields.source[i][q] - (1. - drag_here) * drag_source[i][q];
+            const double residual = fields.source[i][q] - rho * subscale_history[i][q];
+            right[i] += weight * (galerkin * of.value + residual * upwind -
+                                  of_known * of.gradient[i]);
+            right[3] += weight * (tau * residual + solid_flux[i][q]) * of.gradient[i];
+          }
       }
+    for (unsigned int c = 0; c < unknowns_per_node; ++c)
+      system.rhs[c] = stored(right[c]);
+    assemble_matrix(state, points, fields, terms, system);
   }
 
-  Tensor<1, 3>
-  unresolved_flux(const FlowCoefficients                   &coefficients,
-                  const CellState                          &state,
-                  const ShapePoint                         &point,
-                  const Tensor<1, 3>                       &subscale_history,
-                  const std::array<double, nodes_per_cell> &pressure)
+  EightVectors
+  unresolved_flux(const FlowCoefficients &coefficients,
+                  const CellState        &state,
+                  const ShapePoints      &points,
+                  const EightVectors     &subscale_history,
+                  const Eight            &pressure)
   {
-    const PointState here     = interpolate(coefficients, state, point);
-    Tensor<1, 3>     residual = coefficients.density * subscale_history - here.source;
-    for (unsigned int b = 0; b < nodes_per_cell; ++b)
-      residual += (inertia(coefficients, state, point, here, b) +
-                   state.resistance[b] * point.value[b]) *
-                    state.flux[b] +
-                  here.pressure_share * pressure[b] * point.gradient[b];
-    return -stabilization_time(coefficients, here.resistance, state.size) * residual;
+    const PointFields fields(coefficients, state, points);
+    const VectorLanes flux = lanes(state.flux);
+    EightVectors      result;
+    for (unsigned int q = 0; q < points_per_cell; ++q)
+      {
+        const Transport  of(coefficients, state, points[q], fields, q);
+        const EightLanes momentum = of.inertia + of.drag;
+        for (unsigned int i = 0; i < 3; ++i)
+          result[i][q] = -fields.tau[q] *
+                         (coefficients.density * subscale_history[i][q] -
+                          fields.source[i][q] +
+                          reduce(momentum * flux[i] +
+                                 fields.pressure_share[q] * lanes(pressure) * of.gradient[i]));
+      }
+    return result;
   }
 } // namespace graupel

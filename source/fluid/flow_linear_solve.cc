@@ -17,17 +17,21 @@ namespace graupel
     // Of the volume that the voids have: what the void fraction is exact to [-].
     constexpr double void_round_off = 1e-13;
 
+    // What one solve in single precision may be asked to reach of its residual, and what
+    // at least it must leave no more of [-].
+    constexpr double single_accuracy = 1e-6, least_progress = 0.5;
+
     constexpr unsigned int failed = dealii::numbers::invalid_unsigned_int;
   } // namespace
 
   unsigned int
-  FlowSolver::solve()
+  FlowSolver::solve(const Medium &medium)
   {
     if (is_closed())
       balance_closed_vessel();
     const bool stale = is_stale();
     if (stale)
-      refresh_preconditioner();
+      refresh_preconditioner(medium);
     double tolerance = std::max(parameters.linear_tolerance * rhs.l2_norm(),
                                 std::numeric_limits<double>::min());
     if (!std::isfinite(tolerance))
@@ -36,7 +40,7 @@ namespace graupel
     last_iterations = 0;
     for (unsigned int round = 0;; ++round)
       {
-        const unsigned int iterations = solve_to(tolerance);
+        const unsigned int iterations = solve_to(tolerance, medium);
         if (iterations == failed && round == 0)
           throw SolverFailure(
             "The linear solver of the flow did not reach its tolerance within " +
@@ -127,14 +131,15 @@ namespace graupel
   }
 
   void
-  FlowSolver::refresh_preconditioner()
+  FlowSolver::refresh_preconditioner(const Medium &medium)
   {
-    preconditioner.refresh(matrix, schur);
+    assemble_schur(medium);
+    preconditioner->refresh(schur);
     built = recipe = share(assembled);
   }
 
   unsigned int
-  FlowSolver::solve_to(const double tolerance)
+  FlowSolver::solve_to(const double tolerance, const Medium &medium)
   {
     boundaries.constraints().set_zero(solution);
     solution.zero_out_ghost_values();
@@ -145,7 +150,7 @@ namespace graupel
     unsigned int iterations = iterate(tolerance, patience);
     if (iterations == failed)
       {
-        refresh_preconditioner();
+        refresh_preconditioner(medium);
         iterations = iterate(tolerance, parameters.maximum_iterations);
         if (iterations != failed)
           iterations += patience;
@@ -167,17 +172,36 @@ namespace graupel
   unsigned int
   FlowSolver::iterate(const double tolerance, const unsigned int maximum)
   {
-    dealii::SolverControl             control(maximum, tolerance, false, false);
-    dealii::SolverFGMRES<BlockVector> solver(
-      control, dealii::SolverFGMRES<BlockVector>::AdditionalData(100));
-    try
+    NodeBlockVector right, correction;
+    node_matrix->initialize(right);
+    node_matrix->initialize(correction);
+    double before = std::numeric_limits<double>::max();
+    for (unsigned int iterations = 0;;)
       {
-        solver.solve(matrix, solution, rhs, preconditioner);
+        matrix.vmult(residual, solution);
+        residual.sadd(-1., 1., rhs);
+        const double error = residual.l2_norm();
+        if (error <= tolerance)
+          return iterations;
+        if (iterations >= maximum || !(error < least_progress * before))
+          return failed;
+        before = error;
+        node_matrix->to_nodes(right, residual, error);
+        correction = 0.f;
+        dealii::SolverControl control(
+          maximum - iterations, std::max(0.7 * tolerance / error, single_accuracy), false, false);
+        dealii::SolverFGMRES<NodeBlockVector> solver(
+          control, dealii::SolverFGMRES<NodeBlockVector>::AdditionalData(100));
+        try
+          {
+            solver.solve(*node_matrix, correction, right, *preconditioner);
+          }
+        catch (const dealii::SolverControl::NoConvergence &)
+          {
+            return failed;
+          }
+        iterations += control.last_step();
+        node_matrix->add_to(solution, correction, error);
       }
-    catch (const dealii::SolverControl::NoConvergence &)
-      {
-        return failed;
-      }
-    return control.last_step();
   }
 } // namespace graupel

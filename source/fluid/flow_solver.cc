@@ -66,8 +66,6 @@ namespace graupel
     , boundaries(parameters.boundaries.by_id(nodes.mesh.boundaries()),
                  parameters.boundaries.weigh_inlets,
                  space)
-    , cell_matrix(unknowns_per_node * nodes_per_cell, unknowns_per_node * nodes_per_cell)
-    , cell_rhs(unknowns_per_node * nodes_per_cell)
   {
     for (NodalVectorField *field :
          {&flux_now, &flux_old, &flux_history, &carrier, &latest, &outlet_traction})
@@ -105,6 +103,8 @@ namespace graupel
     matrix.reinit(pattern);
     scatter = std::make_unique<CellScatter>(space, boundaries.constraints(), matrix);
     schur.reinit(nodes.coupling_pattern);
+    node_matrix.emplace(matrix);
+    preconditioner.emplace(*node_matrix);
     solution.reinit(BlockVector(space.owned, space.relevant, nodes.mesh.communicator()));
     rhs.reinit(solution);
     residual.reinit(solution);
@@ -208,7 +208,7 @@ namespace graupel
     do
       {
         assemble(medium);
-        report.iterations += solve();
+        report.iterations += solve(medium);
         report.change = take_carrier();
         ++report.nonlinear_iterations;
       }
@@ -287,7 +287,7 @@ namespace graupel
     restore_solution();
     known_media      = 1;
     known_unresolved = 0;
-    std::fill(unresolved_now.begin(), unresolved_now.end(), dealii::Tensor<1, 3>());
+    std::fill(unresolved_now.begin(), unresolved_now.end(), EightVectors());
   }
 
   void

@@ -12,8 +12,8 @@ namespace graupel
     : nodes(nodes)
     , fe(nodes.fe, unknowns_per_node)
     , dof_handler(nodes.dof_handler.get_triangulation())
-    , points_per_cell(nodes.quadrature.size())
   {
+    AssertDimension(nodes.quadrature.size(), points_per_cell);
     number_unknowns();
     store_cells();
     store_faces();
@@ -69,19 +69,21 @@ namespace graupel
         cell_nodes.push_back(local);
         cell_unknowns.push_back(unknowns);
 
-        double volume = 0.;
+        double      volume = 0.;
+        ShapePoints points;
         for (const unsigned int q : values.quadrature_point_indices())
           {
-            ShapePoint point;
+            ShapePoint &point = points[q];
             point.weight = values.JxW(q);
             volume += point.weight;
             for (unsigned int a = 0; a < nodes_per_cell; ++a)
               {
-                point.value[a]    = values.shape_value(a, q);
-                point.gradient[a] = values.shape_grad(a, q);
+                point.value[a] = values.shape_value(a, q);
+                for (unsigned int i = 0; i < 3; ++i)
+                  point.gradient[i][a] = values.shape_grad(a, q)[i];
               }
-            shapes.push_back(point);
           }
+        shapes.push_back(points);
         cell_sizes.push_back(std::cbrt(volume));
         cell_centers.push_back(cell->center());
       }
@@ -167,12 +169,9 @@ namespace graupel
         if (!hanging)
           continue;
         volumes = 0.;
-        for (unsigned int q = 0; q < points_per_cell; ++q)
-          {
-            const ShapePoint &point = shapes[cell * points_per_cell + q];
-            for (unsigned int a = 0; a < nodes_per_cell; ++a)
-              volumes[a] += point.weight * point.value[a];
-          }
+        for (const ShapePoint &point : shapes[cell])
+          for (unsigned int a = 0; a < nodes_per_cell; ++a)
+            volumes[a] += point.weight * point.value[a];
         nodes.hanging_nodes.distribute_local_to_global(volumes, indices, hanging_measure);
       }
     hanging_measure.compress(dealii::VectorOperation::add);
@@ -188,14 +187,10 @@ namespace graupel
         std::vector<dealii::FullMatrix<double>> local(
           n_cells(), dealii::FullMatrix<double>(nodes_per_cell, nodes_per_cell));
         for (unsigned int cell = 0; cell < n_cells(); ++cell)
-          for (unsigned int q = 0; q < points_per_cell; ++q)
-            {
-              const ShapePoint &point = shapes[cell * points_per_cell + q];
-              for (unsigned int a = 0; a < nodes_per_cell; ++a)
-                for (unsigned int b = 0; b < nodes_per_cell; ++b)
-                  local[cell](a, b) +=
-                    point.weight * point.value[a] * point.gradient[b][i];
-            }
+          for (const ShapePoint &point : shapes[cell])
+            for (unsigned int a = 0; a < nodes_per_cell; ++a)
+              for (unsigned int b = 0; b < nodes_per_cell; ++b)
+                local[cell](a, b) += point.weight * point.value[a] * point.gradient[i][b];
         for (const auto id : outlets)
           for (const FacePoint &point : boundary(id))
             for (unsigned int a = 0; a < nodes_per_cell; ++a)

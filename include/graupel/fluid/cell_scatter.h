@@ -26,12 +26,8 @@ namespace graupel
                 const dealii::AffineConstraints<double>     &constraints,
                 dealii::TrilinosWrappers::BlockSparseMatrix &matrix);
 
-    /** Adds @p cell_matrix and @p cell_rhs of the owned cell @p cell, and leaves 0 in
-     * both. */
-    void add(const unsigned int          cell,
-             dealii::FullMatrix<double> &cell_matrix,
-             dealii::Vector<double>     &cell_rhs,
-             BlockVector                &rhs) const;
+    /** Adds the @p system of the owned cell @p cell, and leaves 0 in it. */
+    void add(const unsigned int cell, CellSystem &system, BlockVector &rhs) const;
 
   private:
     static constexpr unsigned int n_unknowns = nodes_per_cell * unknowns_per_node;
@@ -55,9 +51,10 @@ namespace graupel
 
     bool find_constrained(const unsigned int cell, std::vector<Constrained> &found) const;
     void find_places(const unsigned int cell, Places &places) const;
-    void condense(const unsigned int          cell,
-                  dealii::FullMatrix<double> &cell_matrix,
-                  dealii::Vector<double>     &cell_rhs) const;
+    void condense(const unsigned int cell, CellSystem &system) const;
+    void add_by_constraints(const unsigned int cell,
+                            CellSystem        &system,
+                            BlockVector       &rhs) const;
 
     const FlowSpace                             &space;
     const dealii::AffineConstraints<double>     &constraints;

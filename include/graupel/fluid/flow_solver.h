@@ -293,7 +293,7 @@ namespace graupel
     CellState            gather(const unsigned int cell, const Medium &medium) const;
     FlowCoefficients     coefficients() const;
     double               fastest_speed(const NodalVector &void_fraction) const;
-    dealii::Tensor<1, 3> subscale_history(const unsigned int point) const;
+    EightVectors         subscale_history(const unsigned int cell) const;
     void                 update_unresolved(const Medium &medium);
     void                 assemble(const Medium &medium);
     void                 assemble_system(const Medium &medium);
@@ -307,15 +307,16 @@ namespace graupel
                                        const Medium                 &medium);
     void         add_nodal_drag(const Medium &medium);
     void         assemble_schur(const Medium &medium);
-    unsigned int solve();
+    unsigned int solve(const Medium &medium);
     // invalid_unsigned_int where a fresh preconditioner does not help either.
-    unsigned int solve_to(const double tolerance);
+    unsigned int solve_to(const double tolerance, const Medium &medium);
     void         balance_closed_vessel();
     void         level_pressure();
     // Iterations, or invalid_unsigned_int after @p maximum of them.
     unsigned int iterate(const double tolerance, const unsigned int maximum);
     bool         is_stale() const;
-    void         refresh_preconditioner();
+    // For the last assemble_system(), which was of this medium.
+    void         refresh_preconditioner(const Medium &medium);
     void         rebuild_preconditioner(const bool shares_pressure);
     // Collective.
     static std::shared_ptr<const Recipe> share(const Recipe &recipe);
@@ -381,7 +382,8 @@ namespace graupel
     dealii::TrilinosWrappers::BlockSparseMatrix matrix;
     dealii::TrilinosWrappers::SparseMatrix      schur;
     std::unique_ptr<CellScatter>                scatter;
-    BlockPreconditioner                         preconditioner;
+    std::optional<NodeBlockMatrix>              node_matrix; // of matrix
+    std::optional<BlockPreconditioner>          preconditioner;
     unsigned int                                fresh_iterations = 0;
     unsigned int                                last_iterations  = 0;
     // Of the preconditioner that is to be used, and of the one that there is: they differ
@@ -389,8 +391,7 @@ namespace graupel
     std::shared_ptr<const Recipe> recipe, built;
     Recipe                        assembled; // the matrix
     BlockVector                   solution, rhs, residual;
-    dealii::FullMatrix<double>    cell_matrix;
-    dealii::Vector<double>        cell_rhs;
+    CellSystem                    cell_system;
     double                        worst_node = 0.; // [m^3/s]
 
     TimeScheme       scheme;
@@ -408,7 +409,7 @@ namespace graupel
     // first step.
     TimeScheme                        subscale_scheme;
     unsigned int                      known_unresolved = 0;
-    std::vector<dealii::Tensor<1, 3>> unresolved_now, unresolved_old;
+    std::vector<EightVectors> unresolved_now, unresolved_old;
   };
 } // namespace graupel
 

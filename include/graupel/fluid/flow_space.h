@@ -75,9 +75,8 @@ namespace graupel
     std::vector<bool> has_hanging_node;
     /** The part of the nodes' volumes that lies in such cells [m^3]. */
     NodalVector hanging_measure;
-    /** Quadrature points, cell after cell. */
-    std::vector<ShapePoint> shapes;
-    unsigned int            points_per_cell;
+    /** Quadrature points, by owned cell. */
+    std::vector<ShapePoints> shapes;
     /**
      * By component: integral of psi_k dp/dx_i over the cells, minus
      * integral of psi_k n_i p over the outlets [m^2]; its transpose is minus the

@@ -1,0 +1,36 @@
+#ifndef graupel_fluid_flux_factors_h
+#define graupel_fluid_flux_factors_h
+
+#include <graupel/fluid/node_blocks.h>
+
+namespace graupel
+{
+  /**
+   * Incomplete factors LU of the flux's block A without fill-in, of each component by
+   * itself: what couples the components is left out, and so are other ranks' nodes.
+   * Source: Saad, Iterative Methods for Sparse Linear Systems (2003), ch. 10.
+   */
+  class FluxFactors
+  {
+  public:
+    void refresh(const NodeBlockMatrix &system);
+
+    /** The flux of each node in @p values becomes (LU)^-1 of it; pressures stay. */
+    void solve(NodeBlockVector &values) const;
+
+  private:
+    // A row's blocks: of L, whose diagonal is 1, and of U beyond its diagonal.
+    struct Row
+    {
+      unsigned int begin, diagonal, end;
+    };
+
+    void eliminate(const Row &row, std::vector<unsigned int> &place);
+
+    std::vector<Row>          rows;
+    std::vector<unsigned int> columns;
+    std::vector<float>        values; // four each; those on the diagonal are inverted
+  };
+} // namespace graupel
+
+#endif
