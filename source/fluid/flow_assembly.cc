@@ -110,6 +110,7 @@ namespace graupel
     add_nodal_drag(medium);
     matrix.compress(dealii::VectorOperation::add);
     node_matrix->take(matrix);
+    minimizer->forget();
     rhs.compress(dealii::VectorOperation::add);
   }
 

@@ -1,9 +1,6 @@
 #include <graupel/base/parameters.h>
 #include <graupel/fluid/flow_solver.h>
 
-#include <deal.II/lac/solver_control.h>
-#include <deal.II/lac/solver_gmres.h>
-
 #include <sstream>
 
 namespace graupel
@@ -16,10 +13,6 @@ namespace graupel
     constexpr double linear_round_off = 1e-14;
     // Of the volume that the voids have: what the void fraction is exact to [-].
     constexpr double void_round_off = 1e-13;
-
-    // What one solve in single precision may be asked to reach of its residual, and what
-    // at least it must leave no more of [-].
-    constexpr double single_accuracy = 1e-6, least_progress = 0.5;
 
     constexpr unsigned int failed = dealii::numbers::invalid_unsigned_int;
   } // namespace
@@ -147,11 +140,11 @@ namespace graupel
     // with it, and only then with a fresh one.
     const unsigned int patience =
       std::min(parameters.maximum_iterations, std::max(50u, 3 * fresh_iterations));
-    unsigned int iterations = iterate(tolerance, patience);
+    unsigned int iterations = minimizer->solve(solution, rhs, tolerance, patience);
     if (iterations == failed)
       {
         refresh_preconditioner(medium);
-        iterations = iterate(tolerance, parameters.maximum_iterations);
+        iterations = minimizer->solve(solution, rhs, tolerance, parameters.maximum_iterations);
         if (iterations != failed)
           iterations += patience;
       }
@@ -167,41 +160,5 @@ namespace graupel
         latest[i].update_ghost_values();
       }
     return iterations;
-  }
-
-  unsigned int
-  FlowSolver::iterate(const double tolerance, const unsigned int maximum)
-  {
-    NodeBlockVector right, correction;
-    node_matrix->initialize(right);
-    node_matrix->initialize(correction);
-    double before = std::numeric_limits<double>::max();
-    for (unsigned int iterations = 0;;)
-      {
-        matrix.vmult(residual, solution);
-        residual.sadd(-1., 1., rhs);
-        const double error = residual.l2_norm();
-        if (error <= tolerance)
-          return iterations;
-        if (iterations >= maximum || !(error < least_progress * before))
-          return failed;
-        before = error;
-        node_matrix->to_nodes(right, residual, error);
-        correction = 0.f;
-        dealii::SolverControl control(
-          maximum - iterations, std::max(0.7 * tolerance / error, single_accuracy), false, false);
-        dealii::SolverFGMRES<NodeBlockVector> solver(
-          control, dealii::SolverFGMRES<NodeBlockVector>::AdditionalData(100));
-        try
-          {
-            solver.solve(*node_matrix, correction, right, *preconditioner);
-          }
-        catch (const dealii::SolverControl::NoConvergence &)
-          {
-            return failed;
-          }
-        iterations += control.last_step();
-        node_matrix->add_to(solution, correction, error);
-      }
   }
 } // namespace graupel

@@ -105,6 +105,7 @@ namespace graupel
     schur.reinit(nodes.coupling_pattern);
     node_matrix.emplace(matrix);
     preconditioner.emplace(*node_matrix);
+    minimizer.emplace(matrix, *node_matrix, *preconditioner);
     solution.reinit(BlockVector(space.owned, space.relevant, nodes.mesh.communicator()));
     rhs.reinit(solution);
     residual.reinit(solution);

@@ -6,6 +6,7 @@
 #include <graupel/fluid/flow_boundaries.h>
 #include <graupel/fluid/flow_history.h>
 #include <graupel/fluid/flow_parameters.h>
+#include <graupel/fluid/residual_minimizer.h>
 #include <graupel/fluid/time_scheme.h>
 
 #include <optional>
@@ -312,8 +313,6 @@ namespace graupel
     unsigned int solve_to(const double tolerance, const Medium &medium);
     void         balance_closed_vessel();
     void         level_pressure();
-    // Iterations, or invalid_unsigned_int after @p maximum of them.
-    unsigned int iterate(const double tolerance, const unsigned int maximum);
     bool         is_stale() const;
     // For the last assemble_system(), which was of this medium.
     void         refresh_preconditioner(const Medium &medium);
@@ -384,6 +383,7 @@ namespace graupel
     std::unique_ptr<CellScatter>                scatter;
     std::optional<NodeBlockMatrix>              node_matrix; // of matrix
     std::optional<BlockPreconditioner>          preconditioner;
+    std::optional<ResidualMinimizer>            minimizer;
     unsigned int                                fresh_iterations = 0;
     unsigned int                                last_iterations  = 0;
     // Of the preconditioner that is to be used, and of the one that there is: they differ

@@ -75,13 +75,11 @@ namespace graupel
       return column_nodes;
     }
 
-    /** Diagonal entries of a block of A; the last is 0. */
+    /** What a unit of component @p j adds to the four residuals by a block. */
     NodeUnknowns
-    flux_diagonal(const unsigned int block) const
+    flux_column(const unsigned int block, const unsigned int j) const
     {
-      const float *const values = &flux_columns[12 * block];
-      return NodeUnknowns(
-        [&](const auto i) { return i < 3 ? values[5 * (i % 3)] : 0.f; });
+      return unknowns_of(&flux_columns[12 * block], j);
     }
 
   private:

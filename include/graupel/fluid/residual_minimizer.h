@@ -1,0 +1,71 @@
+#ifndef graupel_fluid_residual_minimizer_h
+#define graupel_fluid_residual_minimizer_h
+
+#include <graupel/fluid/block_preconditioner.h>
+
+namespace graupel
+{
+  /**
+   * Solves the flow's linear system A x = b by minimal residuals over a growing space of
+   * preconditioned directions z_k, as GMRES does, in single precision; the solution and
+   * now and then its residual are in double precision. The images A z_k are kept as an
+   * orthonormal basis Q with A Z = Q R. As Q is a basis whatever the residual is, the
+   * search goes on from each exact residual without a restart. The next direction comes
+   * from the residual, or from the last basis vector where the residual hardly falls, of
+   * which equal directions would come.
+   * Source: Jiranek & Rozloznik, Numer. Algorithms 53 (2010) 93,
+   * doi:10.1007/s11075-009-9292-2 (bases); van der Vorst & Ye, SIAM J. Sci. Comput. 22
+   * (2000) 835, doi:10.1137/S1064827599353865 (exact residuals).
+   */
+  class ResidualMinimizer
+  {
+  public:
+    /** Of @p exact and its copy @p system; all must outlive this object. */
+    ResidualMinimizer(const dealii::TrilinosWrappers::BlockSparseMatrix &exact,
+                      const NodeBlockMatrix                             &system,
+                      const BlockPreconditioner                         &preconditioner);
+
+    /** The system is another from now on. */
+    void forget();
+
+    /** Iterations until |b - A x| <= @p tolerance, or invalid_unsigned_int where that
+     * needs more than @p maximum or cannot be reached. Collective. */
+    unsigned int solve(BlockVector       &x,
+                       const BlockVector &b,
+                       const double       tolerance,
+                       const unsigned int maximum);
+
+  private:
+    // The residual of x becomes the one that is to be minimised; its size.
+    double take_residual(const BlockVector &x, const BlockVector &b);
+    // Minimises the residual to the part wanted of it, or to what single precision is worth;
+    // false where that takes more directions than there is room for, or there are none.
+    bool minimize(const double       wanted,
+                  const unsigned int maximum,
+                  unsigned int      &iterations);
+    // A new direction and its image, if there is one.
+    bool extend(const NodeBlockVector &source);
+    // Takes out what the vectors of the basis have of the vector, to be found in removed.
+    void project(NodeBlockVector &vector, const unsigned int n);
+    void add_directions(BlockVector &x);
+    // What project() has left of the square of the vector.
+    double squared_rest() const;
+    // Sums over all ranks of the products of a vector with the first of the basis and, in
+    // the end, with itself.
+    void products(const NodeBlockVector &vector, const unsigned int n);
+
+    const dealii::TrilinosWrappers::BlockSparseMatrix &exact;
+    const NodeBlockMatrix                             &system;
+    const BlockPreconditioner                         &preconditioner;
+    std::vector<NodeBlockVector>                       basis, directions; // Q, Z
+    std::vector<std::vector<double>>                   triangle;          // R by column
+    unsigned int                                       n_basis = 0;
+    std::vector<double> share;   // of each basis vector that x lacks
+    std::vector<double> removed; // by project() and products()
+    NodeBlockVector     residual, sum;
+    double              scale = 0.; // of the residual
+    BlockVector         exact_residual;
+  };
+} // namespace graupel
+
+#endif
