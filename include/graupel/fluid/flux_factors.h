@@ -6,8 +6,8 @@
 namespace graupel
 {
   /**
-   * Incomplete factors LU of the flux's block A without fill-in, by blocks of 3 x 3 of
-   * pairs of this rank's nodes.
+   * Incomplete factors LU of the flux's block A without fill-in, of each component by
+   * itself: what couples the components is left out, and so are other ranks' nodes.
    * Source: Saad, Iterative Methods for Sparse Linear Systems (2003), ch. 10.
    */
   class FluxFactors
@@ -19,21 +19,17 @@ namespace graupel
     void solve(NodeBlockVector &values) const;
 
   private:
-    using Block = std::array<NodeUnknowns, 3>; // by column
-
-    // Where a row's blocks are: of L, whose diagonal is 1, and of U.
+    // A row's blocks: of L, whose diagonal is 1, and of U beyond its diagonal.
     struct Row
     {
       unsigned int begin, diagonal, end;
     };
 
-    void  eliminate(const Row &row, std::vector<unsigned int> &place);
-    Block block(const unsigned int number) const;
-    void  put(const unsigned int number, const Block &block);
+    void eliminate(const Row &row, std::vector<unsigned int> &place);
 
     std::vector<Row>          rows;
     std::vector<unsigned int> columns;
-    std::vector<float>        values; // those on the diagonal are inverted
+    std::vector<float>        values; // four each; those on the diagonal are inverted
   };
 } // namespace graupel
 

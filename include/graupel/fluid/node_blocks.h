@@ -75,11 +75,13 @@ namespace graupel
       return column_nodes;
     }
 
-    /** What a unit of component @p j adds to the four residuals by a block. */
+    /** Diagonal entries of a block of A; the last is 0. */
     NodeUnknowns
-    flux_column(const unsigned int block, const unsigned int j) const
+    flux_diagonal(const unsigned int block) const
     {
-      return unknowns_of(&flux_columns[12 * block], j);
+      const float *const values = &flux_columns[12 * block];
+      return NodeUnknowns(
+        [&](const auto i) { return i < 3 ? values[5 * (i % 3)] : 0.f; });
     }
 
   private:
