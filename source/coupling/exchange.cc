@@ -123,6 +123,7 @@ namespace graupel
   {
     const CostSheet::Scope timing(costs, CostSheet::void_fraction);
     transfer.update(store);
+    find_marks();
     deposit_void_fraction(particles);
     check_void_fraction(particles);
     law_alpha = law_void_fractions();

@@ -86,11 +86,22 @@ namespace graupel
     throw InputError("Coupling/filter length", reason.str());
   }
 
+  void
+  Exchange::find_marks()
+  {
+    for (unsigned int n = 0; n < marks.size(); ++n)
+      {
+        marks[n].clear();
+        for (const auto &edges : transfer.edges())
+          marks[n].emplace_back(filter_length, n + 1, edges);
+      }
+  }
+
   double
   Exchange::own_solid(const unsigned int row, const unsigned int filters) const
   {
     const ParticleTransfer::Place &place = transfer.places()[row];
-    return volume[row] * filter.self_density(place.edge, place.part, filters);
+    return volume[row] * marks[filters - 1][place.cell].density(place.x);
   }
 
   std::vector<double>
@@ -177,7 +188,7 @@ namespace graupel
       {
         const ParticleTransfer::Place &place = transfer.places()[row];
         solid_gradient[row] -= isolation[row] * volume[row] *
-                               place.gradient(filter.self_slopes(place.edge, place.part));
+                               (place.by_x * marks[0][place.cell].slopes(place.x));
       }
   }
 

@@ -81,7 +81,7 @@ namespace graupel
   {
     // Depositing and sampling spread a particle, too.
     const double variance =
-      4. * filter_length * filter_length + 2. / 3. * transfer.places()[row].variance();
+      4. * filter_length * filter_length + 2. / 3. * transfer.variance(row);
     const double s = std::sqrt(std::max(variance, std::numeric_limits<double>::min()));
     const double others = surroundings[row] / volume[row] * beta[row] / felt_alpha[row];
     return isolation[row] * screened_mobility(fluid, s, slip[row], others);

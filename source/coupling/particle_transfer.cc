@@ -8,7 +8,7 @@ namespace graupel
 
     // d psi_a / d x_i at the place x in the unit cell.
     double
-    slope(const unsigned int a, const unsigned int i, const std::array<double, 3> &x)
+    slope(const unsigned int a, const unsigned int i, const dealii::Point<3> &x)
     {
       double product = a & (1u << i) ? 1. : -1.;
       for (unsigned int j = 0; j < 3; ++j)
@@ -20,7 +20,7 @@ namespace graupel
     // The inverse transposed Jacobian of the trilinear cell.
     template <typename Cell>
     dealii::Tensor<2, 3>
-    inverse_jacobian(const Cell &cell, const std::array<double, 3> &x)
+    inverse_jacobian(const Cell &cell, const dealii::Point<3> &x)
     {
       dealii::Tensor<2, 3> transposed;
       for (unsigned int a = 0; a < n_vertices; ++a)
@@ -52,6 +52,7 @@ namespace graupel
   ParticleTransfer::update(const ParticleStore &store)
   {
     cells.clear();
+    edge.clear();
     weights.clear();
     place.clear();
     const auto &partitioner = *nodes.measure().get_partitioner();
@@ -71,19 +72,17 @@ namespace graupel
       for (unsigned int a = 0; a < n_nodes; ++a)
         entry.local_nodes[a] = partitioner.global_to_local(entry.nodes[a]);
       cells.push_back(entry);
+      edge.push_back(mean_edges(dof_cell));
 
       weights.resize(std::max<std::size_t>(weights.size(), entry.end_row));
       place.resize(weights.size());
-      const auto edges = mean_edges(dof_cell);
       for (unsigned int p = 0; p < locations.size(); ++p)
         {
           for (unsigned int a = 0; a < n_nodes; ++a)
             weights[first_row + p][a] = nodes.fe.shape_value(a, locations[p]);
-          place[first_row + p].edge = edges;
-          for (unsigned int i = 0; i < 3; ++i)
-            place[first_row + p].part[i] = locations[p][i];
-          place[first_row + p].by_part =
-            inverse_jacobian(dof_cell, place[first_row + p].part);
+          place[first_row + p] = {static_cast<unsigned int>(cells.size() - 1),
+                                  locations[p],
+                                  inverse_jacobian(dof_cell, locations[p])};
         }
     });
   }
@@ -124,12 +123,22 @@ namespace graupel
     for (const Cell &cell : cells)
       for (unsigned int row = cell.first_row; row < cell.end_row; ++row)
         {
-          dealii::Tensor<1, 3> by_part;
+          dealii::Tensor<1, 3> by_x;
           for (unsigned int a = 0; a < n_nodes; ++a)
             for (unsigned int i = 0; i < 3; ++i)
-              by_part[i] +=
-                slope(a, i, place[row].part) * field.local_element(cell.local_nodes[a]);
-          values[row] = place[row].by_part * by_part;
+              by_x[i] +=
+                slope(a, i, place[row].x) * field.local_element(cell.local_nodes[a]);
+          values[row] = place[row].by_x * by_x;
         }
+  }
+
+  double
+  ParticleTransfer::variance(const unsigned int row) const
+  {
+    const Place &at  = place[row];
+    double       sum = 0.;
+    for (unsigned int i = 0; i < 3; ++i)
+      sum += edge[at.cell][i] * edge[at.cell][i] * at.x[i] * (1. - at.x[i]);
+    return sum;
   }
 } // namespace graupel

@@ -146,8 +146,9 @@ TEST(FewParticles, ItsOwnMarkIsKnownOnALattice)
       transfer.sample(found, mark);
       for (unsigned int row = 0; row < found.size(); ++row)
         {
-          const auto  &place    = transfer.places()[row];
-          const double expected = filter.self_density(place.edge, place.part, times);
+          const auto  &place = transfer.places()[row];
+          const double expected =
+            OwnMark(length, times, transfer.edges()[place.cell]).density(place.x);
           EXPECT_NEAR(found[row] / expected, 1., 5e-3) << found[row];
         }
       if (times > 1)
@@ -158,7 +159,8 @@ TEST(FewParticles, ItsOwnMarkIsKnownOnALattice)
         {
           const auto &place = transfer.places()[row];
           const auto  expected =
-            place.gradient(filter.self_slopes(place.edge, place.part));
+            place.by_x *
+            OwnMark(length, times, transfer.edges()[place.cell]).slopes(place.x);
           EXPECT_LT((gradient[row] - expected).norm(), 0.05 * gradient[row].norm());
           EXPECT_GT(gradient[row].norm(), 10. * found[row]);
         }

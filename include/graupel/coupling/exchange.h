@@ -5,6 +5,7 @@
 #include <graupel/coupling/added_forces.h>
 #include <graupel/coupling/drag_of_type.h>
 #include <graupel/coupling/filter.h>
+#include <graupel/coupling/own_mark.h>
 #include <graupel/coupling/particle_response.h>
 #include <graupel/coupling/particle_transfer.h>
 #include <graupel/fluid/flow_solver.h>
@@ -104,11 +105,11 @@ namespace graupel
    * Foscolo & Gibilaro, Chem. Eng. Sci. 39 (1984) 1667 and 42 (1987) 1489.
    *
    * What a particle does to the fields that it feels. Its mark in a filtered field is
-   * known: the solid fraction phi_0 (Filter::self_density()). Among others it fills the
-   * hole that they leave around it, and what is left is the part S(phi_s), by the
-   * structure factor of hard spheres in the surroundings of the solid fraction phi_s = 1
-   * - alpha - S phi_0: all of it for a lone sphere, nothing in a packed bed. The law is
-   * evaluated at phi_s. A force F slows the fluid that the particle feels down by k F,
+   * known: the solid fraction phi_0 (OwnMark). Among others it fills the hole that they
+   * leave around it, and what is left is the part S(phi_s), by the structure factor of
+   * hard spheres in the surroundings of the solid fraction phi_s = 1 - alpha - S phi_0:
+   * all of it for a lone sphere, nothing in a packed bed. The law is evaluated at phi_s.
+   * A force F slows the fluid that the particle feels down by k F,
    *
    *   k = S(phi_s) screened_mobility(s), s^2 = 4 l^2 + 2/3 sum over k of w_pk |x_k -
    * x_p|^2,
@@ -226,7 +227,8 @@ namespace graupel
     void check_void_fraction(const ParticleArrays &particles) const;
     // Of the law at each own particle.
     std::vector<double> law_void_fractions();
-    // The solid fraction that a particle finds of itself after so many filters [-].
+    void                find_marks();
+    // The solid fraction that a particle finds of itself after one or two filters [-].
     double own_solid(const unsigned int row, const unsigned int filters) const;
     // 1 - alpha at each own particle, without what is left of its own mark.
     std::vector<double> surrounding_solids();
@@ -284,8 +286,10 @@ namespace graupel
     CostSheet                    &costs;
     const Filter                  filter;
     ParticleTransfer              transfer;
-    Medium                        result;
-    NodalVector                   solid_fraction, scratch, smooth_scratch;
+    // Of one filter and of two, by cell with own particles.
+    std::array<std::vector<OwnMark>, 2> marks;
+    Medium                              result;
+    NodalVector                         solid_fraction, scratch, smooth_scratch;
 
     NodalVectorField    interstitial;    // u [m/s]
     NodalVectorField    smooth_velocity; // S u [m/s]

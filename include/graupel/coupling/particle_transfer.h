@@ -32,32 +32,12 @@ namespace graupel
     /** Where a particle is in its cell. */
     struct Place
     {
-      /** Mean lengths of the cell's edges in each of its directions [m]. */
-      std::array<double, 3> edge;
-      /** The part of them that is behind the particle, x [-]. */
-      std::array<double, 3> part;
+      /** Which one of edges() is that of the cell. */
+      unsigned int cell;
+      /** In the unit cell, x [-]. */
+      dealii::Point<3> x;
       /** From derivatives by x to the gradient, the inverse transposed Jacobian [1/m]. */
-      dealii::Tensor<2, 3> by_part;
-
-      /** How far its weights lie from it, sum of w_pk |x_k - x_p|^2 [m^2]. */
-      double
-      variance() const
-      {
-        double sum = 0.;
-        for (unsigned int i = 0; i < 3; ++i)
-          sum += edge[i] * edge[i] * part[i] * (1. - part[i]);
-        return sum;
-      }
-
-      /** The gradient of what has these slopes along the edges. */
-      dealii::Tensor<1, 3>
-      gradient(const std::array<double, 3> &slopes) const
-      {
-        dealii::Tensor<1, 3> derivatives;
-        for (unsigned int i = 0; i < 3; ++i)
-          derivatives[i] = slopes[i] * edge[i];
-        return by_part * derivatives;
-      }
+      dealii::Tensor<2, 3> by_x;
     };
 
     /** By row. */
@@ -66,6 +46,17 @@ namespace graupel
     {
       return place;
     }
+
+    /** Mean lengths of the edges in each direction, by cell with own particles [m]. */
+    const std::vector<std::array<double, 3>> &
+    edges() const
+    {
+      return edge;
+    }
+
+    /** How far the weights of @p row lie from the particle, sum of w_pk |x_k - x_p|^2
+     * [m^2]. */
+    double variance(const unsigned int row) const;
 
   private:
     static constexpr unsigned int n_nodes = dealii::GeometryInfo<3>::vertices_per_cell;
@@ -79,6 +70,7 @@ namespace graupel
 
     const NodalSpace                        &nodes;
     std::vector<Cell>                        cells;
+    std::vector<std::array<double, 3>>       edge;    // by cell
     std::vector<std::array<double, n_nodes>> weights; // by row
     std::vector<Place>                       place;
   };
