@@ -4,18 +4,9 @@ namespace graupel
 {
   namespace
   {
-    constexpr unsigned int n_vertices = dealii::GeometryInfo<3>::vertices_per_cell;
-
-    // d psi_a / d x_i at the place x in the unit cell.
-    double
-    slope(const unsigned int a, const unsigned int i, const dealii::Point<3> &x)
-    {
-      double product = a & (1u << i) ? 1. : -1.;
-      for (unsigned int j = 0; j < 3; ++j)
-        if (j != i)
-          product *= a & (1u << j) ? x[j] : 1. - x[j];
-      return product;
-    }
+    // FE_Q's shape functions are the same, at many times the cost.
+    using Geometry                    = dealii::GeometryInfo<3>;
+    constexpr unsigned int n_vertices = Geometry::vertices_per_cell;
 
     // The inverse transposed Jacobian of the trilinear cell.
     template <typename Cell>
@@ -24,8 +15,8 @@ namespace graupel
     {
       dealii::Tensor<2, 3> transposed;
       for (unsigned int a = 0; a < n_vertices; ++a)
-        for (unsigned int i = 0; i < 3; ++i)
-          transposed[i] += slope(a, i, x) * cell->vertex(a);
+        transposed += outer_product(Geometry::d_linear_shape_function_gradient(x, a),
+                                    cell->vertex(a));
       return invert(transposed);
     }
 
@@ -79,7 +70,8 @@ namespace graupel
       for (unsigned int p = 0; p < locations.size(); ++p)
         {
           for (unsigned int a = 0; a < n_nodes; ++a)
-            weights[first_row + p][a] = nodes.fe.shape_value(a, locations[p]);
+            weights[first_row + p][a] =
+              Geometry::d_linear_shape_function(locations[p], a);
           place[first_row + p] = {static_cast<unsigned int>(cells.size() - 1),
                                   locations[p],
                                   inverse_jacobian(dof_cell, locations[p])};
@@ -125,9 +117,8 @@ namespace graupel
         {
           dealii::Tensor<1, 3> by_x;
           for (unsigned int a = 0; a < n_nodes; ++a)
-            for (unsigned int i = 0; i < 3; ++i)
-              by_x[i] +=
-                slope(a, i, place[row].x) * field.local_element(cell.local_nodes[a]);
+            by_x += field.local_element(cell.local_nodes[a]) *
+                    Geometry::d_linear_shape_function_gradient(place[row].x, a);
           values[row] = place[row].by_x * by_x;
         }
   }
