@@ -97,21 +97,34 @@ namespace graupel
     sums.compress(dealii::VectorOperation::add);
   }
 
-  void
-  ParticleTransfer::sample(std::vector<double> &values, const NodalVector &field) const
+  std::vector<double>
+  ParticleTransfer::sample(const NodalVector &field) const
   {
-    values.assign(weights.size(), 0.);
+    std::vector<double> values(weights.size(), 0.);
     for (const Cell &cell : cells)
       for (unsigned int row = cell.first_row; row < cell.end_row; ++row)
         for (unsigned int a = 0; a < n_nodes; ++a)
           values[row] += weights[row][a] * field.local_element(cell.local_nodes[a]);
+    return values;
   }
 
-  void
-  ParticleTransfer::sample_gradient(std::vector<dealii::Tensor<1, 3>> &values,
-                                    const NodalVector                 &field) const
+  std::vector<dealii::Tensor<1, 3>>
+  ParticleTransfer::sample(const NodalVectorField &field) const
   {
-    values.resize(weights.size());
+    std::vector<dealii::Tensor<1, 3>> values(weights.size());
+    for (const Cell &cell : cells)
+      for (unsigned int row = cell.first_row; row < cell.end_row; ++row)
+        for (unsigned int a = 0; a < n_nodes; ++a)
+          for (unsigned int i = 0; i < 3; ++i)
+            values[row][i] +=
+              weights[row][a] * field[i].local_element(cell.local_nodes[a]);
+    return values;
+  }
+
+  std::vector<dealii::Tensor<1, 3>>
+  ParticleTransfer::sample_gradient(const NodalVector &field) const
+  {
+    std::vector<dealii::Tensor<1, 3>> values(weights.size());
     for (const Cell &cell : cells)
       for (unsigned int row = cell.first_row; row < cell.end_row; ++row)
         {
@@ -121,6 +134,7 @@ namespace graupel
                     Geometry::d_linear_shape_function_gradient(place[row].x, a);
           values[row] = place[row].by_x * by_x;
         }
+    return values;
   }
 
   double

@@ -135,15 +135,14 @@ TEST(FewParticles, ItsOwnMarkIsKnownOnALattice)
       NodalVector mark, field;
       column.nodes.initialize(mark);
       column.nodes.initialize(field);
-      std::vector<double> found, one(column.dem.particles().n_owned, 1.);
-      transfer.deposit(field, one);
+      transfer.deposit(field, std::vector<double>(column.dem.particles().n_owned, 1.));
       filter.spread(mark, field);
       for (unsigned int n = 1; n < times; ++n)
         {
           filter.smooth(field, mark);
           mark.swap(field);
         }
-      transfer.sample(found, mark);
+      const auto found = transfer.sample(mark);
       for (unsigned int row = 0; row < found.size(); ++row)
         {
           const auto  &place = transfer.places()[row];
@@ -153,8 +152,7 @@ TEST(FewParticles, ItsOwnMarkIsKnownOnALattice)
         }
       if (times > 1)
         continue;
-      std::vector<dealii::Tensor<1, 3>> gradient;
-      transfer.sample_gradient(gradient, mark);
+      const auto gradient = transfer.sample_gradient(mark);
       for (unsigned int row = 0; row < found.size(); ++row)
         {
           const auto &place = transfer.places()[row];
@@ -182,9 +180,7 @@ TEST(FewParticles, AGradientIsThatOfALinearField)
       if (const auto k = cell->vertex_dof_index(a, 0); column.nodes.owned.is_element(k))
         field(k) = slope * cell->vertex(a);
   field.update_ghost_values();
-  std::vector<dealii::Tensor<1, 3>> gradient;
-  transfer.sample_gradient(gradient, field);
-  for (const auto &found : gradient)
+  for (const auto &found : transfer.sample_gradient(field))
     EXPECT_LT((found - slope).norm(), 1e-10);
 }
 

@@ -257,10 +257,9 @@ namespace graupel
     void add_forces();
     void add_known_forces();
     void add_virtual_mass();
-    // Component i of the added force where the fluid moves with velocity, over D [N].
-    double added_force(const unsigned int row,
-                       const unsigned int i,
-                       const double       velocity) const;
+    // Where the fluid moves with this velocity, over D [N].
+    dealii::Tensor<1, 3> added_force(const unsigned int          row,
+                                     const dealii::Tensor<1, 3> &velocity) const;
     // Values of hanging nodes and ghosts from those of the own nodes.
     void complete(NodalVector &x) const;
     // Takes what a particle would answer to the fields of the last forces() node by node
@@ -268,7 +267,7 @@ namespace graupel
     // mobility.
     void put_back_old_fields();
     // beta_p (W S u)_p - V_p (W S grad p)_p of the last forces(), by row [N].
-    std::vector<double> old_force(const unsigned int i) const;
+    std::vector<dealii::Tensor<1, 3>> old_forces() const;
     // Lets the solids give way to a change of the pressure gradient since the last
     // forces().
     void yield_to_pressure();
@@ -294,7 +293,7 @@ namespace graupel
     NodalVectorField    interstitial;    // u [m/s]
     NodalVectorField    smooth_velocity; // S u [m/s]
     NodalVectorField    gradient;        // grad p [Pa/m]
-    NodalVectorField    smooth_gradient; // S grad p [Pa/m]
+    NodalVectorField    smooth_gradient; // S grad p, in model B 0 [Pa/m]
     std::vector<double> volume, beta;    // by row [m^3], [kg/s]
     std::vector<double> answer;          // D by row
     double              old_part = 0.;   // of put_back_old_fields() [-]
@@ -308,6 +307,7 @@ namespace graupel
     std::vector<double> own_part;        // k F over the slip, by row
     std::vector<double> of_slip;         // W S alpha^-1 by row
     std::vector<double> of_drag;         // W S alpha^-2, in model B alpha^-1, by row
+    std::vector<dealii::Tensor<1, 3>> felt_velocity;  // W S u by row [m/s]
     std::vector<dealii::Tensor<1, 3>> solid_gradient; // of the others, by row [1/m]
     dealii::Tensor<1, 3>              fluid_force;
     double                            momentum_error = 0., volume_error = 0.;

@@ -2,7 +2,7 @@
 #define graupel_coupling_particle_transfer_h
 
 #include <graupel/dem/particles/particle_store.h>
-#include <graupel/mesh/nodal_space.h>
+#include <graupel/fluid/flow_space.h>
 
 namespace graupel
 {
@@ -23,11 +23,11 @@ namespace graupel
     void deposit(NodalVector &sums, const std::vector<double> &values) const;
 
     /** W f at each own particle; the ghosts of @p field must be up to date. */
-    void sample(std::vector<double> &values, const NodalVector &field) const;
+    std::vector<double>               sample(const NodalVector &field) const;
+    std::vector<dealii::Tensor<1, 3>> sample(const NodalVectorField &field) const;
 
     /** grad f in the cell of each own particle [1/m]. */
-    void sample_gradient(std::vector<dealii::Tensor<1, 3>> &values,
-                         const NodalVector                 &field) const;
+    std::vector<dealii::Tensor<1, 3>> sample_gradient(const NodalVector &field) const;
 
     /** Where a particle is in its cell. */
     struct Place
