@@ -28,33 +28,17 @@ namespace graupel
       }
   }
 
-  std::vector<Vector>
-  AddedForces::sample(const ParticleTransfer &transfer,
-                      const NodalVectorField &field) const
-  {
-    std::vector<Vector> result;
-    std::vector<double> values;
-    for (unsigned int i = 0; i < 3; ++i)
-      {
-        transfer.sample(values, field[i]);
-        result.resize(values.size());
-        for (unsigned int row = 0; row < values.size(); ++row)
-          result[row][i] = values[row];
-      }
-    return result;
-  }
-
   void
-  AddedForces::evaluate(const ParticleArrays                     &particles,
-                        const ParticleTransfer                   &transfer,
-                        const std::array<std::vector<double>, 3> &velocity,
-                        const std::vector<double>                &alpha,
-                        const double                              step)
+  AddedForces::evaluate(const ParticleArrays      &particles,
+                        const ParticleTransfer    &transfer,
+                        const std::vector<Vector> &velocity,
+                        const std::vector<double> &alpha,
+                        const double               step)
   {
     const unsigned int n            = particles.n_owned;
-    const auto         acceleration = sample(transfer, smooth.acceleration);
-    const auto         vorticity    = sample(transfer, smooth.vorticity);
-    const auto         viscous      = sample(transfer, smooth.viscous_force);
+    const auto         acceleration = transfer.sample(smooth.acceleration);
+    const auto         vorticity    = transfer.sample(smooth.vorticity);
+    const auto         viscous      = transfer.sample(smooth.viscous_force);
     rate_scale                      = std::isfinite(step) ? 1. / step : 0.;
     mass.resize(n);
     rate.resize(n);
@@ -62,11 +46,9 @@ namespace graupel
     carried_velocity.resize(n);
     for (unsigned int row = 0; row < n; ++row)
       {
-        const Body  &body   = particles.body[row];
-        const double volume = sphere_volume(body.radius);
-        Vector       u;
-        for (unsigned int i = 0; i < 3; ++i)
-          u[i] = velocity[i][row];
+        const Body  &body     = particles.body[row];
+        const double volume   = sphere_volume(body.radius);
+        const auto  &u        = velocity[row];
         mass[row]             = forces.virtual_mass(alpha[row], volume);
         rate[row]             = mass[row] * rate_scale;
         carried_velocity[row] = rate_scale > 0. ? u - acceleration[row] / rate_scale : u;
@@ -89,7 +71,7 @@ namespace graupel
     std::vector<Vector> result(particles.n_owned);
     if (!std::isfinite(step))
       return result;
-    const auto vorticity = sample(transfer, smooth.vorticity);
+    const auto vorticity = transfer.sample(smooth.vorticity);
     for (unsigned int row = 0; row < particles.n_owned; ++row)
       {
         const Body  &body    = particles.body[row];

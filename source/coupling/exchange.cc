@@ -123,6 +123,7 @@ namespace graupel
   {
     const CostSheet::Scope timing(costs, CostSheet::void_fraction);
     transfer.update(store);
+    find_marks();
     deposit_void_fraction(particles);
     check_void_fraction(particles);
     law_alpha = law_void_fractions();
@@ -221,15 +222,12 @@ namespace graupel
     old_part = std::clamp(4. * least - 2., 0., 1.);
   }
 
-  std::vector<double>
-  Exchange::old_force(const unsigned int i) const
+  std::vector<dealii::Tensor<1, 3>>
+  Exchange::old_forces() const
   {
-    std::vector<double> force, pressure(beta.size(), 0.);
-    transfer.sample(force, smooth_velocity[i]);
-    if (result.shares_pressure)
-      transfer.sample(pressure, smooth_gradient[i]);
-    for (unsigned int row = 0; row < beta.size(); ++row)
-      force[row] = beta[row] * force[row] - volume[row] * pressure[row];
+    auto force = transfer.sample(smooth_gradient);
+    for (unsigned int row = 0; row < force.size(); ++row)
+      force[row] = beta[row] * felt_velocity[row] - volume[row] * force[row];
     return force;
   }
 
@@ -239,6 +237,7 @@ namespace graupel
     if (old_part == 0.)
       return;
     MovingSolids &solids = *result.solids;
+    const auto    force  = old_forces();
     const double  shared = result.shares_pressure ? 1. : 0.;
     NodalVector   whole_drag, correction;
     for (NodalVector *field : {&whole_drag, &correction})
@@ -252,9 +251,9 @@ namespace graupel
     };
     for (unsigned int i = 0; i < 3; ++i)
       {
-        const auto force = old_force(i);
-        spread(correction,
-               [&](const unsigned int row) { return (1. - answer[row]) * force[row]; });
+        spread(correction, [&](const unsigned int row) {
+          return (1. - answer[row]) * force[row][i];
+        });
         add(result.drag_source[i], [&](const unsigned int k) {
           return (result.drag.local_element(k) - whole_drag.local_element(k)) *
                    interstitial[i].local_element(k) +
@@ -264,7 +263,7 @@ namespace graupel
                    gradient[i].local_element(k);
         });
         spread(correction, [&](const unsigned int row) {
-          return volume[row] * response.mobility[row] * answer[row] * force[row];
+          return volume[row] * response.mobility[row] * answer[row] * force[row][i];
         });
         add(solids.flux[i], [&](const unsigned int k) {
           return solids.by_gradient.local_element(k) * gradient[i].local_element(k) -
@@ -306,24 +305,19 @@ namespace graupel
     const CostSheet::Scope timing(costs, CostSheet::exchange);
     follow(flow, result.void_fraction);
 
+    const auto velocity = transfer.sample(smooth_velocity);
+    const auto slope    = transfer.sample(smooth_gradient);
+
     std::vector<dealii::Tensor<1, 3>> force(particles.n_owned);
-    std::vector<double>               velocity, pressure;
     fluid_force = 0.;
-    for (unsigned int i = 0; i < 3; ++i)
+    for (unsigned int row = 0; row < particles.n_owned; ++row)
       {
-        transfer.sample(velocity, smooth_velocity[i]);
-        pressure.assign(particles.n_owned, 0.);
-        if (result.shares_pressure)
-          transfer.sample(pressure, smooth_gradient[i]);
-        for (unsigned int row = 0; row < particles.n_owned; ++row)
-          {
-            force[row][i] =
-              answer[row] * (beta[row] * (velocity[row] - response.velocity[row][i]) -
-                             volume[row] * pressure[row]);
-            if (added)
-              force[row][i] += answer[row] * added_force(row, i, velocity[row]);
-            fluid_force[i] += force[row][i];
-          }
+        force[row] =
+          beta[row] * (velocity[row] - response.velocity[row]) - volume[row] * slope[row];
+        if (added)
+          force[row] += added_force(row, velocity[row]);
+        force[row] *= answer[row];
+        fluid_force += force[row];
       }
     fluid_force = dealii::Utilities::MPI::sum(fluid_force, nodes.mesh.communicator());
     for (unsigned int row = 0; row < particles.n_owned; ++row)

@@ -86,11 +86,22 @@ namespace graupel
     throw InputError("Coupling/filter length", reason.str());
   }
 
+  void
+  Exchange::find_marks()
+  {
+    for (unsigned int n = 0; n < marks.size(); ++n)
+      {
+        marks[n].clear();
+        for (const auto &edges : transfer.edges())
+          marks[n].emplace_back(filter_length, n + 1, edges);
+      }
+  }
+
   double
   Exchange::own_solid(const unsigned int row, const unsigned int filters) const
   {
     const ParticleTransfer::Place &place = transfer.places()[row];
-    return volume[row] * filter.self_density(place.edge, place.part, filters);
+    return volume[row] * marks[filters - 1][place.cell].density(place.x);
   }
 
   std::vector<double>
@@ -125,9 +136,9 @@ namespace graupel
     scratch.update_ghost_values();
     filter.smooth(smooth_scratch, scratch);
 
-    std::vector<double> factor, smooth_chi, within;
-    transfer.sample(factor, scratch);
-    transfer.sample(smooth_chi, smooth_scratch);
+    auto                factor     = transfer.sample(scratch);
+    const auto          smooth_chi = transfer.sample(smooth_scratch);
+    std::vector<double> within;
     for (unsigned int row = 0; row < factor.size(); ++row)
       {
         factor[row] =
@@ -149,7 +160,7 @@ namespace graupel
   std::vector<double>
   Exchange::law_void_fractions()
   {
-    transfer.sample(flow_alpha, result.void_fraction);
+    flow_alpha   = transfer.sample(result.void_fraction);
     surroundings = surrounding_solids();
     std::vector<double> alpha(surroundings.size(), 1.);
     if (law.sharp_surface)
@@ -172,12 +183,12 @@ namespace graupel
   {
     if (law.upstream == 0.)
       return;
-    transfer.sample_gradient(solid_gradient, solid_fraction);
+    solid_gradient = transfer.sample_gradient(solid_fraction);
     for (unsigned int row = 0; row < solid_gradient.size(); ++row)
       {
         const ParticleTransfer::Place &place = transfer.places()[row];
         solid_gradient[row] -= isolation[row] * volume[row] *
-                               place.gradient(filter.self_slopes(place.edge, place.part));
+                               (place.by_x * marks[0][place.cell].slopes(place.x));
       }
   }
 
@@ -202,8 +213,7 @@ namespace graupel
       scratch.local_element(k) =
         std::pow(result.void_fraction.local_element(k), exponent);
     filter.smooth(smooth_scratch, scratch);
-    std::vector<double> values;
-    transfer.sample(values, smooth_scratch);
+    auto values = transfer.sample(smooth_scratch);
     for (unsigned int row = 0; row < values.size(); ++row)
       values[row] *= 1. + (exponent + 1. / 3.) * isolation[row] * own_solid(row, 2);
     return values;

@@ -26,20 +26,15 @@ namespace graupel
   void
   Exchange::find_drag_coefficients(const ParticleArrays &particles)
   {
-    const unsigned int                 n = particles.n_owned;
-    std::array<std::vector<double>, 3> velocity;
-    for (unsigned int i = 0; i < 3; ++i)
-      transfer.sample(velocity[i], smooth_velocity[i]);
-
+    const unsigned int n = particles.n_owned;
+    felt_velocity        = transfer.sample(smooth_velocity);
     beta.resize(n);
     slip.resize(n);
     felt_alpha.resize(n);
     own_part.assign(n, 0.);
     for (unsigned int row = 0; row < n; ++row)
       {
-        dealii::Tensor<1, 3> felt;
-        for (unsigned int i = 0; i < 3; ++i)
-          felt[i] = velocity[i][row] - particles.body[row].velocity[i];
+        const auto felt = felt_velocity[row] - particles.body[row].velocity;
         felt_alpha[row] =
           void_fraction_upstream(row, 2. * particles.body[row].radius, felt);
         try
@@ -81,7 +76,7 @@ namespace graupel
   {
     // Depositing and sampling spread a particle, too.
     const double variance =
-      4. * filter_length * filter_length + 2. / 3. * transfer.places()[row].variance();
+      4. * filter_length * filter_length + 2. / 3. * transfer.variance(row);
     const double s = std::sqrt(std::max(variance, std::numeric_limits<double>::min()));
     const double others = surroundings[row] / volume[row] * beta[row] / felt_alpha[row];
     return isolation[row] * screened_mobility(fluid, s, slip[row], others);

@@ -5,12 +5,8 @@ namespace graupel
   void
   Exchange::find_added_forces(const ParticleArrays &particles)
   {
-    if (!added)
-      return;
-    std::array<std::vector<double>, 3> velocity;
-    for (unsigned int i = 0; i < 3; ++i)
-      transfer.sample(velocity[i], smooth_velocity[i]);
-    added->evaluate(particles, transfer, velocity, law_alpha, response.step);
+    if (added)
+      added->evaluate(particles, transfer, felt_velocity, law_alpha, response.step);
   }
 
   double
@@ -19,14 +15,12 @@ namespace graupel
     return added ? added->inertia()[row] : 0.;
   }
 
-  double
-  Exchange::added_force(const unsigned int row,
-                        const unsigned int i,
-                        const double       velocity) const
+  dealii::Tensor<1, 3>
+  Exchange::added_force(const unsigned int          row,
+                        const dealii::Tensor<1, 3> &velocity) const
   {
-    return inertia(row) *
-             (velocity - added->carried()[row][i] - response.velocity[row][i]) +
-           added->known()[row][i];
+    return inertia(row) * (velocity - added->carried()[row] - response.velocity[row]) +
+           added->known()[row];
   }
 
   void

@@ -14,40 +14,6 @@ namespace graupel
     // Half of l^2 times the largest eigenvalue up to which one polynomial serves;
     // beyond it Bessel functions come near the end of double precision.
     constexpr double largest_exponent = 200.;
-
-    // exp(-x) I_n(x), for n = 0 and 1.
-    double
-    scaled_bessel(const unsigned int n, const double x)
-    {
-      return x > largest_exponent
-               ? (1. - (4. * n - 1.) / (8. * x)) / std::sqrt(2. * dealii::numbers::PI * x)
-               : std::exp(-x) * boost::math::cyl_bessel_i(n, x);
-    }
-
-    // The filter along an edge of the length h, applied so many times.
-    struct Kernel
-    {
-      Kernel(const double length, const double h, const unsigned int times)
-        : h(h)
-        , here(scaled_bessel(0, 2. * times * length * length / (h * h)))
-        , difference(here - scaled_bessel(1, 2. * times * length * length / (h * h)))
-      {
-      }
-
-      double
-      density(const double x) const
-      {
-        return (here - 2. * x * (1. - x) * difference) / h;
-      }
-
-      double
-      slope(const double x) const
-      {
-        return (2. * x - 1.) * difference / (h * h);
-      }
-
-      double h, here, difference;
-    };
   } // namespace
 
   Filter::Filter(const NodalSpace &nodes, const double length)
@@ -125,32 +91,6 @@ namespace graupel
       at_zero += (k % 2 == 0 ? 1. : -1.) * coefficients[k];
     for (double &coefficient : coefficients)
       coefficient /= at_zero;
-  }
-
-  double
-  Filter::self_density(const std::array<double, 3> &edge,
-                       const std::array<double, 3> &part,
-                       const unsigned int           times) const
-  {
-    double density = 1.;
-    for (unsigned int i = 0; i < 3; ++i)
-      density *= Kernel(length, edge[i], times).density(part[i]);
-    return density;
-  }
-
-  std::array<double, 3>
-  Filter::self_slopes(const std::array<double, 3> &edge,
-                      const std::array<double, 3> &part) const
-  {
-    std::array<double, 3> slopes;
-    slopes.fill(1.);
-    for (unsigned int i = 0; i < 3; ++i)
-      {
-        const Kernel kernel(length, edge[i], 1);
-        for (unsigned int j = 0; j < 3; ++j)
-          slopes[j] *= i == j ? kernel.slope(part[i]) : kernel.density(part[i]);
-      }
-    return slopes;
   }
 
   void

@@ -4,28 +4,19 @@ namespace graupel
 {
   namespace
   {
-    constexpr unsigned int n_vertices = dealii::GeometryInfo<3>::vertices_per_cell;
-
-    // d psi_a / d x_i at the place x in the unit cell.
-    double
-    slope(const unsigned int a, const unsigned int i, const std::array<double, 3> &x)
-    {
-      double product = a & (1u << i) ? 1. : -1.;
-      for (unsigned int j = 0; j < 3; ++j)
-        if (j != i)
-          product *= a & (1u << j) ? x[j] : 1. - x[j];
-      return product;
-    }
+    // FE_Q's shape functions are the same, at many times the cost.
+    using Geometry                    = dealii::GeometryInfo<3>;
+    constexpr unsigned int n_vertices = Geometry::vertices_per_cell;
 
     // The inverse transposed Jacobian of the trilinear cell.
     template <typename Cell>
     dealii::Tensor<2, 3>
-    inverse_jacobian(const Cell &cell, const std::array<double, 3> &x)
+    inverse_jacobian(const Cell &cell, const dealii::Point<3> &x)
     {
       dealii::Tensor<2, 3> transposed;
       for (unsigned int a = 0; a < n_vertices; ++a)
-        for (unsigned int i = 0; i < 3; ++i)
-          transposed[i] += slope(a, i, x) * cell->vertex(a);
+        transposed += outer_product(Geometry::d_linear_shape_function_gradient(x, a),
+                                    cell->vertex(a));
       return invert(transposed);
     }
 
@@ -52,6 +43,7 @@ namespace graupel
   ParticleTransfer::update(const ParticleStore &store)
   {
     cells.clear();
+    edge.clear();
     weights.clear();
     place.clear();
     const auto &partitioner = *nodes.measure().get_partitioner();
@@ -71,19 +63,18 @@ namespace graupel
       for (unsigned int a = 0; a < n_nodes; ++a)
         entry.local_nodes[a] = partitioner.global_to_local(entry.nodes[a]);
       cells.push_back(entry);
+      edge.push_back(mean_edges(dof_cell));
 
       weights.resize(std::max<std::size_t>(weights.size(), entry.end_row));
       place.resize(weights.size());
-      const auto edges = mean_edges(dof_cell);
       for (unsigned int p = 0; p < locations.size(); ++p)
         {
           for (unsigned int a = 0; a < n_nodes; ++a)
-            weights[first_row + p][a] = nodes.fe.shape_value(a, locations[p]);
-          place[first_row + p].edge = edges;
-          for (unsigned int i = 0; i < 3; ++i)
-            place[first_row + p].part[i] = locations[p][i];
-          place[first_row + p].by_part =
-            inverse_jacobian(dof_cell, place[first_row + p].part);
+            weights[first_row + p][a] =
+              Geometry::d_linear_shape_function(locations[p], a);
+          place[first_row + p] = {static_cast<unsigned int>(cells.size() - 1),
+                                  locations[p],
+                                  inverse_jacobian(dof_cell, locations[p])};
         }
     });
   }
@@ -106,30 +97,53 @@ namespace graupel
     sums.compress(dealii::VectorOperation::add);
   }
 
-  void
-  ParticleTransfer::sample(std::vector<double> &values, const NodalVector &field) const
+  std::vector<double>
+  ParticleTransfer::sample(const NodalVector &field) const
   {
-    values.assign(weights.size(), 0.);
+    std::vector<double> values(weights.size(), 0.);
     for (const Cell &cell : cells)
       for (unsigned int row = cell.first_row; row < cell.end_row; ++row)
         for (unsigned int a = 0; a < n_nodes; ++a)
           values[row] += weights[row][a] * field.local_element(cell.local_nodes[a]);
+    return values;
   }
 
-  void
-  ParticleTransfer::sample_gradient(std::vector<dealii::Tensor<1, 3>> &values,
-                                    const NodalVector                 &field) const
+  std::vector<dealii::Tensor<1, 3>>
+  ParticleTransfer::sample(const NodalVectorField &field) const
   {
-    values.resize(weights.size());
+    std::vector<dealii::Tensor<1, 3>> values(weights.size());
+    for (const Cell &cell : cells)
+      for (unsigned int row = cell.first_row; row < cell.end_row; ++row)
+        for (unsigned int a = 0; a < n_nodes; ++a)
+          for (unsigned int i = 0; i < 3; ++i)
+            values[row][i] +=
+              weights[row][a] * field[i].local_element(cell.local_nodes[a]);
+    return values;
+  }
+
+  std::vector<dealii::Tensor<1, 3>>
+  ParticleTransfer::sample_gradient(const NodalVector &field) const
+  {
+    std::vector<dealii::Tensor<1, 3>> values(weights.size());
     for (const Cell &cell : cells)
       for (unsigned int row = cell.first_row; row < cell.end_row; ++row)
         {
-          dealii::Tensor<1, 3> by_part;
+          dealii::Tensor<1, 3> by_x;
           for (unsigned int a = 0; a < n_nodes; ++a)
-            for (unsigned int i = 0; i < 3; ++i)
-              by_part[i] +=
-                slope(a, i, place[row].part) * field.local_element(cell.local_nodes[a]);
-          values[row] = place[row].by_part * by_part;
+            by_x += field.local_element(cell.local_nodes[a]) *
+                    Geometry::d_linear_shape_function_gradient(place[row].x, a);
+          values[row] = place[row].by_x * by_x;
         }
+    return values;
+  }
+
+  double
+  ParticleTransfer::variance(const unsigned int row) const
+  {
+    const Place &at  = place[row];
+    double       sum = 0.;
+    for (unsigned int i = 0; i < 3; ++i)
+      sum += edge[at.cell][i] * edge[at.cell][i] * at.x[i] * (1. - at.x[i]);
+    return sum;
   }
 } // namespace graupel

@@ -1,7 +1,4 @@
-#include <graupel/coupling/exchange.h>
-#include <graupel/dem/dem.h>
-
-#include <gtest/gtest.h>
+#include "tube.h"
 
 // Steps of the fluid ten and twenty times as long as an explicit drag would bear.
 
@@ -9,99 +6,25 @@ using namespace graupel;
 
 namespace
 {
-  const dealii::Tensor<1, 3> gravity{{0., 0., -9.81}};
-
-  FluidProperties
-  fluid_of(const double density, const double viscosity)
+  // Glass in a tube of twenty diameters with a fluid that rises through it.
+  Tube::Settings
+  glass(const FluidProperties &fluid,
+        const std::string     &law,
+        const double           diameter,
+        const double           height,
+        const double           velocity)
   {
-    FluidProperties result;
-    result.density   = density;
-    result.viscosity = viscosity;
-    return result;
+    Tube::Settings settings;
+    settings.diameter = 20. * diameter;
+    settings.height   = height;
+    settings.cell     = 2.5 * diameter;
+    settings.particle = diameter;
+    settings.density  = 2500.;
+    settings.fluid    = fluid;
+    settings.law      = law;
+    settings.velocity = velocity;
+    return settings;
   }
-
-  DemParameters
-  spheres(const double diameter, const double density)
-  {
-    DemParameters result;
-    result.particles.diameter = diameter;
-    result.particles.density  = density;
-    return result;
-  }
-
-  DragOfType
-  drag_of(const std::string &law, const FluidProperties &fluid, const double diameter)
-  {
-    DragParameters choice;
-    choice.law = law;
-    return {Drag(choice, fluid, diameter, 1.), 0.5 * diameter};
-  }
-
-  // Spheres in a tube of twenty diameters with a fluid that rises through it.
-  struct Column
-  {
-    Column(const FluidProperties               &fluid,
-           const std::string                   &law,
-           const double                         diameter,
-           const double                         density,
-           const double                         height,
-           const double                         velocity,
-           const std::vector<dealii::Point<3>> &positions)
-      : fluid(fluid)
-      , drag(drag_of(law, fluid, diameter))
-      , mesh({20. * diameter, height}, {2.5 * diameter, 0.}, MPI_COMM_WORLD)
-      , nodes(mesh)
-      , dem(spheres(diameter, density), mesh, costs)
-      , exchange(diameter / std::sqrt(2.), true, {}, {drag}, nodes, costs)
-      , flow({}, fluid.density, fluid.viscosity, nodes, costs)
-    {
-      flow.set_superficial_velocity(velocity);
-      dem.insert(positions);
-      look();
-    }
-
-    void
-    look()
-    {
-      dem.synchronise();
-      exchange.update_bed(dem.store(), dem.particles());
-    }
-
-    // The force of the fluid after a step past particles that contacts hold in balance.
-    void
-    step_past_held(const double dt)
-    {
-      const auto contact = [&](const unsigned int row) {
-        return -(dem.particles().external_force[row] +
-                 dem.particles().mass[row] * gravity);
-      };
-      if (std::isfinite(dt))
-        exchange.update_drag(
-          dem.particles(),
-          particle_response(dem.particles(), contact, gravity, fluid.density, dt));
-      else
-        exchange.update_drag(dem.particles());
-      flow.step(exchange.medium(), dt);
-      dem.particles().external_force =
-        exchange.forces(dem.particles(), flow, fluid.density, gravity);
-      EXPECT_LE(exchange.momentum_imbalance(), 1e-10);
-    }
-
-    double
-    pressure_drop() const
-    {
-      return flow.mean_pressure(VesselMesh::bottom) - flow.mean_pressure(VesselMesh::top);
-    }
-
-    const FluidProperties fluid;
-    const DragOfType      drag;
-    CostSheet             costs;
-    VesselMesh            mesh;
-    NodalSpace            nodes;
-    Dem                   dem;
-    Exchange              exchange;
-    FlowSolver            flow;
-  };
 
   // Layers of spheres that nearly touch, from wall to wall.
   std::vector<dealii::Point<3>>
@@ -122,20 +45,21 @@ namespace
 TEST(LongSteps, AFreeParticleAnswersAndOneInBalanceStays)
 {
   // 0.1 mm glass in air, at ten times the limit of an explicit drag in a dense bed.
-  const double dt = 17e-3;
-  Column       column(
-    fluid_of(1.2, 1.8e-5), "gidaspow", 1e-4, 2500., 4e-3, 0.01, {{0., 0., 2e-3}});
-  auto &particles = column.dem.particles();
+  const double dt       = 17e-3;
+  const auto   settings = glass(fluid_of(1.2, 1.8e-5), "gidaspow", 1e-4, 4e-3, 0.01);
+  const auto  &gravity  = settings.gravity;
+  Tube         tube(settings, {{0., 0., 2e-3}});
+  auto        &particles = tube.dem.particles();
   if (particles.n_owned == 0)
     return;
   const double mass     = particles.mass[0];
   const auto   weight   = mass * gravity;
-  const auto   buoyancy = -column.fluid.density * sphere_volume(5e-5) * gravity;
+  const auto   buoyancy = -settings.fluid.density * settings.volume() * gravity;
   const auto   answer   = [&](const double carried) {
     const auto contact = [&](const unsigned int) {
       return -carried * (particles.external_force[0] + weight);
     };
-    return particle_response(particles, contact, gravity, column.fluid.density, dt);
+    return particle_response(particles, contact, gravity, settings.fluid.density, dt);
   };
   // Free: v + dt g', and all of dt / m.
   particles.external_force[0] = -0.5 * weight;
@@ -174,19 +98,23 @@ TEST(LongSteps, ABedAtRestHasTheSameFlowWithAnyStep)
       double drops[2];
       for (const bool is_steady : {true, false})
         {
-          Column column(fluid,
-                        law,
-                        diameter,
-                        2500.,
-                        20. * diameter,
-                        velocity,
-                        layers_of(diameter, 8));
+          Tube       tube(glass(fluid, law, diameter, 20. * diameter, velocity),
+                    layers_of(diameter, 8));
+          const auto held = [&](const unsigned int row) {
+            const auto &particles = tube.dem.particles();
+            return -(particles.external_force[row] +
+                     particles.mass[row] * tube.settings.gravity);
+          };
           for (unsigned int n = 0; n < 20; ++n)
-            column.step_past_held(is_steady ? FlowSolver::steady : dt);
-          drops[is_steady] = column.pressure_drop();
+            if (is_steady)
+              tube.step_fluid(FlowSolver::steady);
+            else
+              tube.step_fluid(dt, held);
+          drops[is_steady] = tube.flow.mean_pressure(VesselMesh::bottom) -
+                             tube.flow.mean_pressure(VesselMesh::top);
           if (!is_steady)
             {
-              EXPECT_GT(dt, 10. * column.exchange.stable_step(column.dem.particles()));
+              EXPECT_GT(dt, 10. * tube.exchange.stable_step(tube.dem.particles()));
             }
         }
       std::cout << "steps of " << dt << " s: " << drops[0] << " Pa, steady " << drops[1]

@@ -1,9 +1,6 @@
-#include <graupel/base/parameters.h>
-#include <graupel/coupling/exchange.h>
-#include <graupel/dem/dem.h>
-#include <graupel/dem/particles/dem_error.h>
+#include "tube.h"
 
-#include <gtest/gtest.h>
+#include <graupel/dem/particles/dem_error.h>
 
 #include <complex>
 
@@ -11,121 +8,33 @@ using namespace graupel;
 
 namespace
 {
-  // Free spheres in water that rises through a tube, with the steps of a run.
-  struct Tube
+  // Free spheres in water that rises through a tube.
+  Tube::Settings
+  spheres(const double particle, const double density, const double cell)
   {
-    static constexpr double diameter = 0.02, height = 0.06, velocity = 0.02;
-
-    Tube(const double                         particle,
-         const double                         density,
-         const double                         cell,
-         const std::vector<dealii::Point<3>> &positions,
-         const std::string                   &law = "wen-yu")
-      : mesh({diameter, height}, {cell, 0.}, MPI_COMM_WORLD)
-      , nodes(mesh)
-      , dem(parameters(particle, density), mesh, costs)
-      , exchange(particle / std::sqrt(2.), true, {}, {drag(particle, law)}, nodes, costs)
-      , flow({}, water.density, water.viscosity, nodes, costs)
-    {
-      flow.set_superficial_velocity(velocity);
-      dem.insert(positions);
-      dem.synchronise();
-    }
-
-    static FluidProperties
-    of_water()
-    {
-      FluidProperties result;
-      result.density   = 998.;
-      result.viscosity = 1e-3;
-      return result;
-    }
-
-    static DemParameters
-    parameters(const double particle, const double density)
-    {
-      DemParameters result;
-      result.particles.diameter = particle;
-      result.particles.density  = density;
-      return result;
-    }
-
-    static DragOfType
-    drag(const double particle, const std::string &law)
-    {
-      DragParameters choice;
-      choice.law = law;
-      return {Drag(choice, of_water(), particle, 1.), 0.5 * particle};
-    }
-
-    // With @p answering particles, or with the explicit drag.
-    void
-    step(const double dt, const bool answering = true)
-    {
-      dem.synchronise();
-      exchange.update_bed(dem.store(), dem.particles());
-      if (answering)
-        exchange.update_drag(
-          dem.particles(),
-          particle_response(
-            dem.particles(),
-            [&](const unsigned int row) { return dem.contact_force(row); },
-            gravity,
-            water.density,
-            dt));
-      else
-        exchange.update_drag(dem.particles());
-      flow.step(exchange.medium(), dt);
-      dem.particles().external_force =
-        exchange.forces(dem.particles(), flow, water.density, gravity);
-      // From rest next to nothing is exchanged, beside which round-off is large.
-      EXPECT_LE(exchange.momentum_imbalance(), flow.time() > 1.5 * dt ? 1e-11 : 1e-9);
-      dem.advance(dt);
-    }
-
-    double
-    mean_velocity() const
-    {
-      double sum = 0.;
-      for (unsigned int row = 0; row < dem.particles().n_owned; ++row)
-        sum += dem.particles().body[row].velocity[2];
-      return dealii::Utilities::MPI::sum(sum, MPI_COMM_WORLD) / dem.n_global();
-    }
-
-    const FluidProperties      water = of_water();
-    const dealii::Tensor<1, 3> gravity{{0., 0., -9.81}};
-    CostSheet                  costs;
-    VesselMesh                 mesh;
-    NodalSpace                 nodes;
-    Dem                        dem;
-    Exchange                   exchange;
-    FlowSolver                 flow;
-  };
-
-  // The slip at which the law's drag on one sphere in clear fluid carries its weight.
-  double
-  terminal_velocity(const DragOfType &drag, const double particle, const double density)
-  {
-    const double weight = std::abs(density - 998.) * 9.81 * sphere_volume(0.5 * particle);
-    double       low = 0., high = 10.;
-    for (unsigned int n = 0; n < 60; ++n)
-      {
-        const double middle = 0.5 * (low + high);
-        (drag.beta(1., middle, 0.5 * particle) * middle < weight ? low : high) = middle;
-      }
-    return low;
+    Tube::Settings settings;
+    settings.height    = 0.06;
+    settings.cell      = cell;
+    settings.particle  = particle;
+    settings.density   = density;
+    settings.velocity  = 0.02;
+    settings.imbalance = 1e-11;
+    return settings;
   }
 
   // A dense cloud of spheres that do not touch, from wall to wall.
   std::vector<dealii::Point<3>>
-  cloud(const double spacing, const double bottom, const unsigned int layers)
+  cloud(const double       diameter,
+        const double       spacing,
+        const double       bottom,
+        const unsigned int layers)
   {
     std::vector<dealii::Point<3>> positions;
-    const int                     n = 0.5 * Tube::diameter / spacing;
+    const int                     n = 0.5 * diameter / spacing;
     for (unsigned int k = 0; k < layers; ++k)
       for (int i = -n; i <= n; ++i)
         for (int j = -n; j <= n; ++j)
-          if (std::hypot(i, j) * spacing < 0.5 * (Tube::diameter - spacing))
+          if (std::hypot(i, j) * spacing < 0.5 * (diameter - spacing))
             positions.emplace_back(i * spacing, j * spacing, bottom + k * spacing);
     return positions;
   }
@@ -149,9 +58,11 @@ TEST(StableStep, IsWhereTheRootsOfTheExplicitStepLeaveTheUnitCircle)
 TEST(StableStep, AtRestKnowsStokesAndNewton)
 {
   // Slow flow: F' = beta; fast flow past Ergun's bed: F' = 2 beta.
-  const double particle = 1e-4, alpha = 0.4, density = 2500.;
-  const auto   drag = Tube::drag(particle, "ergun");
-  const double mass = density * sphere_volume(0.5 * particle);
+  const double   particle = 1e-4, alpha = 0.4, density = 2500.;
+  Tube::Settings settings = spheres(particle, density, 2.5e-3);
+  settings.law            = "ergun";
+  const auto   drag       = settings.drag();
+  const double mass       = settings.mass();
   for (const auto &[velocity, factor] : {std::pair(1e-7, 1.), {1e4, 2.}})
     {
       const double beta     = drag.beta(alpha, velocity / alpha, 0.5 * particle);
@@ -170,19 +81,18 @@ TEST(MovingParticles, OneSphereInWaterReachesTheLawsTerminalVelocity)
                                               std::tuple(2e-3, 500., 1e-2),
                                               std::tuple(2e-3, 50., 5e-3)})
     {
-      const bool sinks = density > 998.;
-      Tube       tube(
-        particle, density, 2.5e-3, {dealii::Point<3>(1e-3, 0.5e-3, sinks ? 0.05 : 0.01)});
-      const double expected =
-        terminal_velocity(Tube::drag(particle, "wen-yu"), particle, density);
-      double       place = 0.;
-      unsigned int n     = 0;
+      const auto   settings = spheres(particle, density, 2.5e-3);
+      const bool   sinks    = density > settings.fluid.density;
+      Tube         tube(settings, {dealii::Point<3>(1e-3, 0.5e-3, sinks ? 0.05 : 0.01)});
+      const double expected = settings.terminal_velocity();
+      double       place    = 0.;
+      unsigned int n        = 0;
       for (; n < 40 && (sinks ? place > -0.03 : place < 0.03); ++n)
         {
           tube.step(dt);
-          place += dt * tube.mean_velocity();
+          place += dt * tube.rise_velocity();
         }
-      const double slip = std::abs(tube.mean_velocity() - Tube::velocity);
+      const double slip = std::abs(tube.rise_velocity() - settings.velocity);
       std::cout << "density " << density << ": slip " << slip << " m/s of " << expected
                 << " after " << n << " steps, limit "
                 << tube.exchange.stable_step(tube.dem.particles()) << " s" << std::endl;
@@ -198,20 +108,21 @@ TEST(MovingParticles, ACloudMovesSmoothlyWithAnyStep)
   for (const auto &[particle, density, spacing, dt] :
        {std::tuple(1e-3, 2500., 1.03e-3, 2e-2), std::tuple(2e-3, 500., 2.05e-3, 5e-3)})
     {
-      const auto   positions = cloud(spacing, 0.02, density > 998. ? 8 : 5);
-      const double terminal =
-        terminal_velocity(Tube::drag(particle, "wen-yu"), particle, density);
-      const double sign = density > 998. ? -1. : 1.;
+      const auto   settings  = spheres(particle, density, 3.2e-3);
+      const bool   sinks     = density > settings.fluid.density;
+      const auto   positions = cloud(settings.diameter, spacing, 0.02, sinks ? 8 : 5);
+      const double terminal  = settings.terminal_velocity();
+      const double sign      = sinks ? -1. : 1.;
       for (const bool answering : {true, false})
         {
-          Tube   tube(particle, density, 3.2e-3, positions);
+          Tube   tube(settings, positions);
           double fastest = 0., back = 0., last = 0.;
           try
             {
               for (unsigned int n = 0; n < 10 && fastest < 10. * terminal; ++n)
                 {
                   tube.step(dt, answering);
-                  const double speed = sign * tube.mean_velocity();
+                  const double speed = sign * tube.rise_velocity();
                   std::cout << speed << " ";
                   back    = std::max(back, last - speed);
                   last    = speed;

@@ -208,8 +208,7 @@ TEST(ParticleTransfer, DepositsEverythingAndSamplesConstants)
   packing.nodes.initialize(constant);
   constant = 2.5;
   constant.update_ghost_values();
-  std::vector<double> sampled;
-  packing.transfer.sample(sampled, constant);
+  const auto sampled = packing.transfer.sample(constant);
   ASSERT_EQ(sampled.size(), packing.dem.particles().n_owned);
   for (const double value : sampled)
     EXPECT_NEAR(value, 2.5, 1e-12);
@@ -228,9 +227,8 @@ TEST(ParticleTransfer, IsAdjointWithTheFilter)
   const double on_nodes = packing.product(field, spread);
 
   packing.filter.smooth(smooth, field);
-  std::vector<double> sampled;
-  packing.transfer.sample(sampled, smooth);
-  double on_particles = 0.;
+  const auto sampled      = packing.transfer.sample(smooth);
+  double     on_particles = 0.;
   for (unsigned int row = 0; row < values.size(); ++row)
     on_particles += values[row] * sampled[row];
   on_particles = dealii::Utilities::MPI::sum(on_particles, MPI_COMM_WORLD);

@@ -48,11 +48,11 @@ namespace graupel
      * where @p transfer has them, from W S u' = @p velocity [m/s] and at the void
      * fraction @p alpha [-], by row.
      */
-    void evaluate(const ParticleArrays                     &particles,
-                  const ParticleTransfer                   &transfer,
-                  const std::array<std::vector<double>, 3> &velocity,
-                  const std::vector<double>                &alpha,
-                  const double                              step);
+    void evaluate(const ParticleArrays                    &particles,
+                  const ParticleTransfer                  &transfer,
+                  const std::vector<dealii::Tensor<1, 3>> &velocity,
+                  const std::vector<double>               &alpha,
+                  const double                             step);
 
     /** M by row [kg]. */
     const std::vector<double> &
@@ -100,10 +100,6 @@ namespace graupel
                                               const double            step) const;
 
   private:
-    // A field of the nodes at each own particle.
-    std::vector<dealii::Tensor<1, 3>> sample(const ParticleTransfer &transfer,
-                                             const NodalVectorField &field) const;
-
     const SphereForces                forces;
     const bool                        has_viscous_stress;
     const std::vector<double>         scales;

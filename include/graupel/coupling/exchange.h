@@ -5,6 +5,7 @@
 #include <graupel/coupling/added_forces.h>
 #include <graupel/coupling/drag_of_type.h>
 #include <graupel/coupling/filter.h>
+#include <graupel/coupling/own_mark.h>
 #include <graupel/coupling/particle_response.h>
 #include <graupel/coupling/particle_transfer.h>
 #include <graupel/fluid/flow_solver.h>
@@ -104,11 +105,11 @@ namespace graupel
    * Foscolo & Gibilaro, Chem. Eng. Sci. 39 (1984) 1667 and 42 (1987) 1489.
    *
    * What a particle does to the fields that it feels. Its mark in a filtered field is
-   * known: the solid fraction phi_0 (Filter::self_density()). Among others it fills the
-   * hole that they leave around it, and what is left is the part S(phi_s), by the
-   * structure factor of hard spheres in the surroundings of the solid fraction phi_s = 1
-   * - alpha - S phi_0: all of it for a lone sphere, nothing in a packed bed. The law is
-   * evaluated at phi_s. A force F slows the fluid that the particle feels down by k F,
+   * known: the solid fraction phi_0 (OwnMark). Among others it fills the hole that they
+   * leave around it, and what is left is the part S(phi_s), by the structure factor of
+   * hard spheres in the surroundings of the solid fraction phi_s = 1 - alpha - S phi_0:
+   * all of it for a lone sphere, nothing in a packed bed. The law is evaluated at phi_s.
+   * A force F slows the fluid that the particle feels down by k F,
    *
    *   k = S(phi_s) screened_mobility(s), s^2 = 4 l^2 + 2/3 sum over k of w_pk |x_k -
    * x_p|^2,
@@ -226,7 +227,8 @@ namespace graupel
     void check_void_fraction(const ParticleArrays &particles) const;
     // Of the law at each own particle.
     std::vector<double> law_void_fractions();
-    // The solid fraction that a particle finds of itself after so many filters [-].
+    void                find_marks();
+    // The solid fraction that a particle finds of itself after one or two filters [-].
     double own_solid(const unsigned int row, const unsigned int filters) const;
     // 1 - alpha at each own particle, without what is left of its own mark.
     std::vector<double> surrounding_solids();
@@ -255,10 +257,9 @@ namespace graupel
     void add_forces();
     void add_known_forces();
     void add_virtual_mass();
-    // Component i of the added force where the fluid moves with velocity, over D [N].
-    double added_force(const unsigned int row,
-                       const unsigned int i,
-                       const double       velocity) const;
+    // Where the fluid moves with this velocity, over D [N].
+    dealii::Tensor<1, 3> added_force(const unsigned int          row,
+                                     const dealii::Tensor<1, 3> &velocity) const;
     // Values of hanging nodes and ghosts from those of the own nodes.
     void complete(NodalVector &x) const;
     // Takes what a particle would answer to the fields of the last forces() node by node
@@ -266,7 +267,7 @@ namespace graupel
     // mobility.
     void put_back_old_fields();
     // beta_p (W S u)_p - V_p (W S grad p)_p of the last forces(), by row [N].
-    std::vector<double> old_force(const unsigned int i) const;
+    std::vector<dealii::Tensor<1, 3>> old_forces() const;
     // Lets the solids give way to a change of the pressure gradient since the last
     // forces().
     void yield_to_pressure();
@@ -284,13 +285,15 @@ namespace graupel
     CostSheet                    &costs;
     const Filter                  filter;
     ParticleTransfer              transfer;
-    Medium                        result;
-    NodalVector                   solid_fraction, scratch, smooth_scratch;
+    // Of one filter and of two, by cell with own particles.
+    std::array<std::vector<OwnMark>, 2> marks;
+    Medium                              result;
+    NodalVector                         solid_fraction, scratch, smooth_scratch;
 
     NodalVectorField    interstitial;    // u [m/s]
     NodalVectorField    smooth_velocity; // S u [m/s]
     NodalVectorField    gradient;        // grad p [Pa/m]
-    NodalVectorField    smooth_gradient; // S grad p [Pa/m]
+    NodalVectorField    smooth_gradient; // S grad p, in model B 0 [Pa/m]
     std::vector<double> volume, beta;    // by row [m^3], [kg/s]
     std::vector<double> answer;          // D by row
     double              old_part = 0.;   // of put_back_old_fields() [-]
@@ -304,6 +307,7 @@ namespace graupel
     std::vector<double> own_part;        // k F over the slip, by row
     std::vector<double> of_slip;         // W S alpha^-1 by row
     std::vector<double> of_drag;         // W S alpha^-2, in model B alpha^-1, by row
+    std::vector<dealii::Tensor<1, 3>> felt_velocity;  // W S u by row [m/s]
     std::vector<dealii::Tensor<1, 3>> solid_gradient; // of the others, by row [1/m]
     dealii::Tensor<1, 3>              fluid_force;
     double                            momentum_error = 0., volume_error = 0.;

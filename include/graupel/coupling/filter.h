@@ -43,25 +43,6 @@ namespace graupel
     /** x = S f, with the same remarks. */
     void smooth(NodalVector &x, const NodalVector &f) const;
 
-    /**
-     * What a particle that is deposited on the nodes, filtered so many @p times and
-     * sampled again finds of itself, a unit of it [1/m^3]. @p edge: lengths of its cell's
-     * edges [m], @p part: its place along them, x [-]. Exact on a lattice, where the
-     * filter is a product of exponentials of the second difference,
-     *
-     *   product over i of (K_0 - 2 x (1 - x) (K_0 - K_1)) / h,  K_n = exp(-2 t) I_n(2 t),
-     *
-     * with t = times l^2 / h^2 and Bessel's functions I_n.
-     */
-    double self_density(const std::array<double, 3> &edge,
-                        const std::array<double, 3> &part,
-                        const unsigned int           times) const;
-
-    /** The slopes that it finds of itself along the edges, filtered once [1/m^4]: in
-     * that direction the factor is (2 x - 1) (K_0 - K_1) / h^2. */
-    std::array<double, 3> self_slopes(const std::array<double, 3> &edge,
-                                      const std::array<double, 3> &part) const;
-
     /** Products with K that one application costs. */
     unsigned int
     degree() const

@@ -2,7 +2,7 @@
 #define graupel_coupling_particle_transfer_h
 
 #include <graupel/dem/particles/particle_store.h>
-#include <graupel/mesh/nodal_space.h>
+#include <graupel/fluid/flow_space.h>
 
 namespace graupel
 {
@@ -23,41 +23,21 @@ namespace graupel
     void deposit(NodalVector &sums, const std::vector<double> &values) const;
 
     /** W f at each own particle; the ghosts of @p field must be up to date. */
-    void sample(std::vector<double> &values, const NodalVector &field) const;
+    std::vector<double>               sample(const NodalVector &field) const;
+    std::vector<dealii::Tensor<1, 3>> sample(const NodalVectorField &field) const;
 
     /** grad f in the cell of each own particle [1/m]. */
-    void sample_gradient(std::vector<dealii::Tensor<1, 3>> &values,
-                         const NodalVector                 &field) const;
+    std::vector<dealii::Tensor<1, 3>> sample_gradient(const NodalVector &field) const;
 
     /** Where a particle is in its cell. */
     struct Place
     {
-      /** Mean lengths of the cell's edges in each of its directions [m]. */
-      std::array<double, 3> edge;
-      /** The part of them that is behind the particle, x [-]. */
-      std::array<double, 3> part;
+      /** Which one of edges() is that of the cell. */
+      unsigned int cell;
+      /** In the unit cell, x [-]. */
+      dealii::Point<3> x;
       /** From derivatives by x to the gradient, the inverse transposed Jacobian [1/m]. */
-      dealii::Tensor<2, 3> by_part;
-
-      /** How far its weights lie from it, sum of w_pk |x_k - x_p|^2 [m^2]. */
-      double
-      variance() const
-      {
-        double sum = 0.;
-        for (unsigned int i = 0; i < 3; ++i)
-          sum += edge[i] * edge[i] * part[i] * (1. - part[i]);
-        return sum;
-      }
-
-      /** The gradient of what has these slopes along the edges. */
-      dealii::Tensor<1, 3>
-      gradient(const std::array<double, 3> &slopes) const
-      {
-        dealii::Tensor<1, 3> derivatives;
-        for (unsigned int i = 0; i < 3; ++i)
-          derivatives[i] = slopes[i] * edge[i];
-        return by_part * derivatives;
-      }
+      dealii::Tensor<2, 3> by_x;
     };
 
     /** By row. */
@@ -66,6 +46,17 @@ namespace graupel
     {
       return place;
     }
+
+    /** Mean lengths of the edges in each direction, by cell with own particles [m]. */
+    const std::vector<std::array<double, 3>> &
+    edges() const
+    {
+      return edge;
+    }
+
+    /** How far the weights of @p row lie from the particle, sum of w_pk |x_k - x_p|^2
+     * [m^2]. */
+    double variance(const unsigned int row) const;
 
   private:
     static constexpr unsigned int n_nodes = dealii::GeometryInfo<3>::vertices_per_cell;
@@ -79,6 +70,7 @@ namespace graupel
 
     const NodalSpace                        &nodes;
     std::vector<Cell>                        cells;
+    std::vector<std::array<double, 3>>       edge;    // by cell
     std::vector<std::array<double, n_nodes>> weights; // by row
     std::vector<Place>                       place;
   };
