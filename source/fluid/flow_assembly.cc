@@ -122,8 +122,7 @@ namespace graupel
         {
           const double normal_flux = space.normal_component(point, inlet.flux);
           for (unsigned int a = 0; a < nodes_per_cell; ++a)
-            cell_system.rhs[3][a] -=
-              point.weight * point.value[a] * normal_flux;
+            cell_system.rhs[3][a] -= point.weight * point.value[a] * normal_flux;
           scatter->add(point.cell, cell_system, rhs);
         }
   }

@@ -102,8 +102,7 @@ namespace graupel
     for (std::size_t cell = 0; cell < bytes.size(); ++cell)
       for (const auto *values : {&unresolved_now, &unresolved_old})
         {
-          const auto *begin =
-            reinterpret_cast<const char *>(&(*values)[cell]);
+          const auto *begin = reinterpret_cast<const char *>(&(*values)[cell]);
           bytes[cell].insert(bytes[cell].end(), begin, begin + size);
         }
   }

@@ -57,7 +57,7 @@ namespace graupel
         const double     convection =
           2. * coefficients.density * coefficients.speed / state.size;
         const double diffusion = 12. * coefficients.viscosity / (state.size * state.size);
-        tau                    = stored(1. / (coefficients.density * coefficients.subscale_rate +
+        tau = stored(1. / (coefficients.density * coefficients.subscale_rate +
                            sqrt(resistance * resistance + convection * convection +
                                 diffusion * diffusion)));
       }
@@ -159,7 +159,7 @@ namespace graupel
               const ShapePoint &point = points[q];
               const PointTerms &term  = terms[q];
               const double      grad[]{
-                point.gradient[0][a], point.gradient[1][a], point.gradient[2][a]};
+                     point.gradient[0][a], point.gradient[1][a], point.gradient[2][a]};
               const EightLanes of_gradients = grad[0] * term.gradient[0] +
                                               grad[1] * term.gradient[1] +
                                               grad[2] * term.gradient[2];
@@ -199,10 +199,11 @@ namespace graupel
     const VectorLanes flux  = lanes(fields.flux);
     const EightLanes  alpha = lanes(fields.void_fraction);
     const EightLanes  speed = sqrt(product(flux, flux)) / alpha;
-    const Eight       gamma = stored(coefficients.grad_div *
-                               (rho * speed * state.size + coefficients.viscosity) / alpha);
-    const Eight mu_alpha = stored(coefficients.viscosity *
-                                  (state.whole_stress ? EightLanes(1.) : alpha));
+    const Eight       gamma =
+      stored(coefficients.grad_div * (rho * speed * state.size + coefficients.viscosity) /
+             alpha);
+    const Eight mu_alpha =
+      stored(coefficients.viscosity * (state.whole_stress ? EightLanes(1.) : alpha));
     const Eight        solids_by_gradient = fields.at_points(state.solids_by_gradient);
     const Eight        solid_divergence   = fields.divergence(state.solid_flux);
     const Eight        void_fraction_rate = fields.at_points(state.void_fraction_rate);
@@ -266,11 +267,11 @@ namespace graupel
         const Transport  of(coefficients, state, points[q], fields, q);
         const EightLanes momentum = of.inertia + of.drag;
         for (unsigned int i = 0; i < 3; ++i)
-          result[i][q] = -fields.tau[q] *
-                         (coefficients.density * subscale_history[i][q] -
-                          fields.source[i][q] +
-                          reduce(momentum * flux[i] +
-                                 fields.pressure_share[q] * lanes(pressure) * of.gradient[i]));
+          result[i][q] =
+            -fields.tau[q] *
+            (coefficients.density * subscale_history[i][q] - fields.source[i][q] +
+             reduce(momentum * flux[i] +
+                    fields.pressure_share[q] * lanes(pressure) * of.gradient[i]));
       }
     return result;
   }

@@ -144,7 +144,8 @@ namespace graupel
     if (iterations == failed)
       {
         refresh_preconditioner(medium);
-        iterations = minimizer->solve(solution, rhs, tolerance, parameters.maximum_iterations);
+        iterations =
+          minimizer->solve(solution, rhs, tolerance, parameters.maximum_iterations);
         if (iterations != failed)
           iterations += patience;
       }

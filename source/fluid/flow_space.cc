@@ -74,7 +74,7 @@ namespace graupel
         for (const unsigned int q : values.quadrature_point_indices())
           {
             ShapePoint &point = points[q];
-            point.weight = values.JxW(q);
+            point.weight      = values.JxW(q);
             volume += point.weight;
             for (unsigned int a = 0; a < nodes_per_cell; ++a)
               {

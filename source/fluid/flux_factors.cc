@@ -54,7 +54,8 @@ namespace graupel
           if (const unsigned int here = place[columns[j]]; here != nowhere)
             put(values,
                 here,
-                unknowns_of(values.data(), here) - factor * unknowns_of(values.data(), j));
+                unknowns_of(values.data(), here) -
+                  factor * unknowns_of(values.data(), j));
       }
     for (unsigned int k = row.begin; k < row.end; ++k)
       place[columns[k]] = nowhere;
@@ -70,14 +71,15 @@ namespace graupel
     // Four sums side by side, as the processor can begin the next before the last ends.
     const auto subtract =
       [&](NodeUnknowns &sum, const unsigned int begin, const unsigned int end) {
-        NodeUnknowns      part[4]{0.f, 0.f, 0.f, 0.f};
+        NodeUnknowns       part[4]{0.f, 0.f, 0.f, 0.f};
         const unsigned int whole = begin + (end - begin) / 4 * 4;
         for (unsigned int k = begin; k < whole; k += 4)
           for (unsigned int i = 0; i < 4; ++i)
             part[i] +=
               unknowns_of(values.data(), k + i) * unknowns_of(solution, columns[k + i]);
         for (unsigned int k = whole; k < end; ++k)
-          part[k - whole] += unknowns_of(values.data(), k) * unknowns_of(solution, columns[k]);
+          part[k - whole] +=
+            unknowns_of(values.data(), k) * unknowns_of(solution, columns[k]);
         sum -= (part[0] + part[1]) + (part[2] + part[3]);
       };
     for (unsigned int row = 0; row < rows.size(); ++row)

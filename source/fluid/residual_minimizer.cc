@@ -62,7 +62,7 @@ namespace graupel
         const float *const x      = vector.begin() + begin;
         for (unsigned int i = 0; i <= n; ++i)
           {
-            const float *const y     = (i < n ? basis[i].begin() : vector.begin()) + begin;
+            const float *const y = (i < n ? basis[i].begin() : vector.begin()) + begin;
             NodeUnknowns       part[4]{0.f, 0.f, 0.f, 0.f};
             unsigned int       k = 0;
             for (; k + 16 <= length; k += 16)

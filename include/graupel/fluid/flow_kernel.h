@@ -25,8 +25,8 @@ namespace graupel
   constexpr unsigned int points_per_cell   = 8;
   constexpr unsigned int unknowns_per_node = 4;
 
-  /** A number for each node of a cell, or for each of its quadrature points, as one operand
-   * of the processor's vector instructions. */
+  /** A number for each node of a cell, or for each of its quadrature points, as one
+   * operand of the processor's vector instructions. */
   using EightLanes =
     std::experimental::simd<double, std::experimental::simd_abi::deduce_t<double, 8>>;
 

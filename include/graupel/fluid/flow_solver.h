@@ -289,17 +289,17 @@ namespace graupel
       NodalVectorField solids;
     };
 
-    void                 prepare_matrices();
-    void                 prepare_rates(const Medium &medium, const double step);
-    CellState            gather(const unsigned int cell, const Medium &medium) const;
-    FlowCoefficients     coefficients() const;
-    double               fastest_speed(const NodalVector &void_fraction) const;
-    EightVectors         subscale_history(const unsigned int cell) const;
-    void                 update_unresolved(const Medium &medium);
-    void                 assemble(const Medium &medium);
-    void                 assemble_system(const Medium &medium);
-    void                 assemble_inlets();
-    void                 assemble_outlets(const Medium &medium);
+    void             prepare_matrices();
+    void             prepare_rates(const Medium &medium, const double step);
+    CellState        gather(const unsigned int cell, const Medium &medium) const;
+    FlowCoefficients coefficients() const;
+    double           fastest_speed(const NodalVector &void_fraction) const;
+    EightVectors     subscale_history(const unsigned int cell) const;
+    void             update_unresolved(const Medium &medium);
+    void             assemble(const Medium &medium);
+    void             assemble_system(const Medium &medium);
+    void             assemble_inlets();
+    void             assemble_outlets(const Medium &medium);
     // Of what enters through an outlet, the part that comes back: Q+ / Q-, at most 1.
     double       returning_share(const dealii::types::boundary_id outlet) const;
     void         assemble_outlet_point(const FlowBoundaries::Outlet &outlet,
@@ -315,8 +315,8 @@ namespace graupel
     void         level_pressure();
     bool         is_stale() const;
     // For the last assemble_system(), which was of this medium.
-    void         refresh_preconditioner(const Medium &medium);
-    void         rebuild_preconditioner(const bool shares_pressure);
+    void refresh_preconditioner(const Medium &medium);
+    void rebuild_preconditioner(const bool shares_pressure);
     // Collective.
     static std::shared_ptr<const Recipe> share(const Recipe &recipe);
     // Volume that enters minus what leaves and is stored, by the latest flux [m^3/s].
@@ -407,8 +407,8 @@ namespace graupel
 
     // The flux that the mesh does not resolve, at the quadrature points; 0 before the
     // first step.
-    TimeScheme                        subscale_scheme;
-    unsigned int                      known_unresolved = 0;
+    TimeScheme                subscale_scheme;
+    unsigned int              known_unresolved = 0;
     std::vector<EightVectors> unresolved_now, unresolved_old;
   };
 } // namespace graupel

@@ -92,7 +92,7 @@ namespace graupel
     };
 
     std::shared_ptr<const dealii::Utilities::MPI::Partitioner> partitioner;
-    std::array<std::vector<Column>, 2>                         of_column;
+    std::array<std::array<std::vector<Column>, 2>, 2>          of_column;
     std::vector<unsigned int>                                  row_starts, column_nodes;
     // By block, each column of it by itself: three of the flux, and the pressure's.
     std::vector<float> flux_columns, pressure_columns;

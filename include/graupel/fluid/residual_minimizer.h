@@ -38,8 +38,9 @@ namespace graupel
   private:
     // The residual of x becomes the one that is to be minimised; its size.
     double take_residual(const BlockVector &x, const BlockVector &b);
-    // Minimises the residual to the part wanted of it, or to what single precision is worth;
-    // false where that takes more directions than there is room for, or there are none.
+    // Minimises the residual to the part wanted of it, or to what single precision is
+    // worth; false where that takes more directions than there is room for, or there are
+    // none.
     bool minimize(const double       wanted,
                   const unsigned int maximum,
                   unsigned int      &iterations);
