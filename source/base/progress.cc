@@ -56,6 +56,7 @@ namespace graupel
     this->end     = end;
     time          = begin;
     wall_at_begin = clock();
+    has_moved     = false;
     last_rewrite  = wall_at_begin;
     last_plain    = wall_at_begin;
     say(phase +
@@ -69,6 +70,12 @@ namespace graupel
       return;
     this->time       = time;
     const double now = clock();
+    if (!has_moved)
+      {
+        has_moved  = true;
+        first_time = time;
+        first_wall = now;
+      }
     if (rewrites && now - last_rewrite >= seconds_between_rewrites)
       {
         // The escape clears what a longer line left behind.
@@ -109,13 +116,13 @@ namespace graupel
   std::string
   Progress::line() const
   {
-    const double wall = clock() - wall_at_begin;
+    const double wall = clock() - first_wall;
     std::string  text = phase + formatted("  %.4g of %.4g %s", time, end, unit.c_str());
     if (end > begin)
       text += formatted("  %.0f %%", 100. * (time - begin) / (end - begin));
-    if (wall > 0. && time > begin)
+    if (has_moved && wall > 0. && time > first_time)
       {
-        const double rate = (time - begin) / wall;
+        const double rate = (time - first_time) / wall;
         text += formatted("  %.3g %s/s  ", rate, unit.c_str()) +
                 spoken_duration(std::max(0., end - time) / rate) + " left";
       }

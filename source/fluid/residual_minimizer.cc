@@ -13,10 +13,8 @@ namespace graupel
     constexpr double least_progress = 0.5;
     // Of a residual that hardly falls: what is left of it after a direction [-].
     constexpr double hardly = 0.95;
-    // A vector of which less than this is left is projected once more [-].
-    constexpr double cancelled = 0.5;
     // Of a direction that is one of those before [-].
-    constexpr double dependent = 1e-6;
+    constexpr double dependent = 1e-5;
 
     constexpr unsigned int failed = dealii::numbers::invalid_unsigned_int;
 
@@ -117,20 +115,18 @@ namespace graupel
     preconditioner.vmult(directions[n_basis], source);
     system.vmult(image, directions[n_basis]);
 
+    // Once leaves of the basis what rounding errors in single precision are; twice is
+    // enough.
     std::vector<double> column(n_basis + 1, 0.);
     double              before = 0., square = 0.;
     for (unsigned int turn = 0; turn < 2; ++turn)
       {
         project(image, n_basis);
-        square = removed[n_basis];
         if (turn == 0)
-          before = square;
-        const double whole = square;
-        square             = squared_rest();
+          before = removed[n_basis];
+        square = squared_rest();
         for (unsigned int i = 0; i < n_basis; ++i)
           column[i] += removed[i];
-        if (square > cancelled * cancelled * whole)
-          break;
       }
     if (!(square > dependent * dependent * before))
       return false;
@@ -200,7 +196,9 @@ namespace graupel
         if (n_basis == most_directions || iterations == maximum)
           return false;
         ++iterations;
-        if (!extend(hardly_fell ? basis[n_basis - 1] : residual))
+        const bool is_extended = (!hardly_fell && extend(residual)) ||
+                                 (n_basis > 0 && extend(basis[n_basis - 1]));
+        if (!is_extended)
           return false;
         const unsigned int last = n_basis - 1;
         products(residual, n_basis);

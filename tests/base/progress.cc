@@ -55,7 +55,7 @@ TEST(Progress, TerminalLineIsRewritten)
   run.progress.say("remark");
   EXPECT_EQ(run.out.str(),
             "flow: from 0 s to 0.4 s\n"
-            "\rflow  0.01 of 0.4 s  2 %  0.01 s/s  39 s left\033[K"
+            "\rflow  0.01 of 0.4 s  2 %\033[K"
             "\rflow  0.02 of 0.4 s  5 %  0.01 s/s  38 s left\033[K"
             "\r\033[Kremark\n");
   EXPECT_EQ(run.log.str(), "flow: from 0 s to 0.4 s\nremark\n");
@@ -65,6 +65,18 @@ TEST(Progress, TerminalLineIsRewritten)
   run.now += 0.01;
   run.progress.update(0.0201);
   EXPECT_EQ(run.out.str().size(), written);
+}
+
+TEST(Progress, AResumedPhaseHasTheSpeedOfNow)
+{
+  TimedRun run(false);
+  run.progress.start_phase("flow", 0., 100.);
+  run.progress.update(90.);
+  run.now += 10.;
+  run.progress.update(91.);
+  EXPECT_EQ(run.out.str(),
+            "flow: from 0 s to 100 s\n"
+            "flow  91 of 100 s  91 %  0.1 s/s  1 min 30 s left\n");
 }
 
 TEST(Progress, OtherRanksAreSilent)

@@ -63,8 +63,11 @@ namespace graupel
     std::string phase, unit;
     double      begin = 0., end = 0., time = 0.;
     double      wall_at_begin = 0.;
-    double      last_rewrite = 0., last_plain = 0.;
-    bool        line_open = false;
+    // Of the first update of the phase: a resumed one begins in its middle.
+    double first_time = 0., first_wall = 0.;
+    bool   has_moved    = false;
+    double last_rewrite = 0., last_plain = 0.;
+    bool   line_open = false;
   };
 
   /**

@@ -4,8 +4,8 @@ import csv
 
 import numpy as np
 
-from common.style import BLUE, GREEN, GREY, new_figure
-from validation_parts.case import Comparison, Run, measured
+from common.style import BLUE, GREEN, GREY, VERMILLION, new_figure
+from validation_parts.case import FOLDER, Comparison, Run, measured
 
 TITLE = "Bubbling bed of 44 mm x 10 mm at 0.6 and 0.9 m/s: void fraction and particle velocity"
 SOURCE = (
@@ -29,7 +29,12 @@ LINES = (
 # The example of the bubbling bed, over the time that was averaged in the measurement.
 EXAMPLE = "../../fluidised-bed/bubbling.prm"
 WINDOW = {"Flow/duration": 10, "Averages/from": 2, "Averages/to": 10}
-MESHES = {"coarse": {}, "fine": {"Mesh/cell size": 1.4e-3}}
+# Cells of 2.75 mm x 2.5 mm x 3 mm, those of 1.83 mm x 2.5 mm x 2 mm, and half the step.
+MESHES = {
+    "coarse": {},
+    "fine": {"Mesh/file": str(FOLDER / "mueller" / "box-fine.msh"), "Mesh/cell size": 1.9e-3},
+    "half-step": {"Flow/time step": 5e-4},
+}
 UNITS = {"void_fraction": "-", "particle_velocity_z": "m/s"}
 
 
@@ -39,7 +44,7 @@ def name_of(velocity, mesh):
 
 
 def runs(quick):
-    """Both velocities on both meshes, hours each; a moment if quick."""
+    """Both velocities on all meshes, an hour each; a moment if quick."""
     if quick:
         moment = {"Flow/duration": 0.05, "Averages/from": 0.01, "Averages/to": 0.05}
         return [Run(name_of(0.6, "coarse"), EXAMPLE, moment)]
@@ -105,7 +110,7 @@ def figure(results):
             if velocity in limits:
                 x, value = points(velocity, height, quantity)
                 axes.plot(x * 1e3, value, "o", color=GREY, markersize=2)
-            for mesh, colour in zip(MESHES, (BLUE, GREEN)):
+            for mesh, colour in zip(MESHES, (BLUE, GREEN, VERMILLION)):
                 if results.has(name_of(velocity, mesh)):
                     x, values = bins(results[name_of(velocity, mesh)], line)
                     axes.plot(x * 1e3, values[quantity], color=colour)

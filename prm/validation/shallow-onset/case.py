@@ -38,7 +38,7 @@ def values(diameter, density, fluid):
         "Particles/density": density,
         "Geometry/diameter": 12.0 * diameter,
         "Geometry/height": 20.0 * diameter,
-        "Mesh/cell size": 0.5 * diameter,
+        "Mesh/cell size": 0.375 * diameter,
         "Flow/superficial velocities": ", ".join(f"{part * at:.6g}" for part in PARTS),
     }
 
