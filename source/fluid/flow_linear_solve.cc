@@ -18,7 +18,7 @@ namespace graupel
   } // namespace
 
   unsigned int
-  FlowSolver::solve(const Medium &medium)
+  FlowSolver::solve(const Medium &medium, const double rough)
   {
     if (is_closed())
       balance_closed_vessel();
@@ -33,7 +33,7 @@ namespace graupel
     last_iterations = 0;
     for (unsigned int round = 0;; ++round)
       {
-        const unsigned int iterations = solve_to(tolerance, medium);
+        const unsigned int iterations = solve_to(tolerance, rough, medium);
         if (iterations == failed && round == 0)
           throw SolverFailure(
             "The linear solver of the flow did not reach its tolerance within " +
@@ -43,6 +43,8 @@ namespace graupel
         scale = flow_scale();
         if (iterations != failed)
           last_iterations += iterations;
+        if (rough > 0.)
+          break;
         const double allowed = parameters.mass_tolerance * scale, error = mass_error();
         if (error <= allowed)
           break;
@@ -132,7 +134,7 @@ namespace graupel
   }
 
   unsigned int
-  FlowSolver::solve_to(const double tolerance, const Medium &medium)
+  FlowSolver::solve_to(const double tolerance, const double part, const Medium &medium)
   {
     boundaries.constraints().set_zero(solution);
     solution.zero_out_ghost_values();
@@ -140,12 +142,12 @@ namespace graupel
     // with it, and only then with a fresh one.
     const unsigned int patience =
       std::min(parameters.maximum_iterations, std::max(50u, 3 * fresh_iterations));
-    unsigned int iterations = minimizer->solve(solution, rhs, tolerance, patience);
+    unsigned int iterations = minimizer->solve(solution, rhs, tolerance, part, patience);
     if (iterations == failed)
       {
         refresh_preconditioner(medium);
         iterations =
-          minimizer->solve(solution, rhs, tolerance, parameters.maximum_iterations);
+          minimizer->solve(solution, rhs, tolerance, part, parameters.maximum_iterations);
         if (iterations != failed)
           iterations += patience;
       }

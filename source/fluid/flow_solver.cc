@@ -165,7 +165,7 @@ namespace graupel
   }
 
   FlowSolver::Report
-  FlowSolver::step(const Medium &medium, const double step)
+  FlowSolver::step(const Medium &medium, const double step, const double rough)
   {
     const CostSheet::Scope timing(costs, CostSheet::fluid);
     const FlowHistory      before        = history();
@@ -181,7 +181,7 @@ namespace graupel
             prepare_rates(medium, step);
           }
         boundaries.update(next_time, superficial_velocity, density, medium.void_fraction);
-        report = solve_nonlinear(medium);
+        report = solve_nonlinear(medium, rough);
       }
     catch (...)
       {
@@ -203,13 +203,13 @@ namespace graupel
   }
 
   FlowSolver::Report
-  FlowSolver::solve_nonlinear(const Medium &medium)
+  FlowSolver::solve_nonlinear(const Medium &medium, const double rough)
   {
     Report report;
     do
       {
         assemble(medium);
-        report.iterations += solve(medium);
+        report.iterations += solve(medium, rough);
         report.change = take_carrier();
         ++report.nonlinear_iterations;
       }

@@ -164,20 +164,22 @@ namespace graupel
   ResidualMinimizer::solve(BlockVector       &x,
                            const BlockVector &b,
                            const double       tolerance,
+                           const double       part,
                            const unsigned int maximum)
   {
     double       error      = take_residual(x, b);
+    const double wanted     = std::max(tolerance, part * error);
     unsigned int iterations = 0;
-    while (!(error <= tolerance))
+    while (!(error <= wanted))
       {
-        const bool   goes_on    = minimize(0.7 * tolerance / error, maximum, iterations);
+        const bool   goes_on    = minimize(0.7 * wanted / error, maximum, iterations);
         const double last_error = error;
         add_directions(x);
         if (!goes_on)
           forget();
         error = take_residual(x, b);
         if (iterations >= maximum || (goes_on && !(error < least_progress * last_error)))
-          return error <= tolerance ? iterations : failed;
+          return error <= wanted ? iterations : failed;
       }
     return iterations;
   }

@@ -176,11 +176,13 @@ namespace graupel
      * Solves for the time @p step [s] after the last one, through @p medium.
      * The rate of the void fraction is that of its solids or, without these, taken from
      * this and the last media by the same formula as the acceleration. With the step
-     * FlowSolver::steady all rates are 0: one linear solve towards the steady state.
+     * FlowSolver::steady all rates are 0: one linear solve towards the steady state. Of a
+     * flow that is to be solved for again @p rough of the residual may be left, whatever
+     * the mass balance [-].
      * Throws SolverFailure where a solve does not converge, and then is as it was before;
      * InputError where a vessel without a prescribed pressure cannot hold what flows in.
      */
-    Report step(const Medium &medium, const double step);
+    Report step(const Medium &medium, const double step, const double rough = 0.);
 
     /**
      * Goes on from @p flux [m/s] and @p pressure [Pa] through @p void_fraction,
@@ -308,9 +310,11 @@ namespace graupel
                                        const Medium                 &medium);
     void         add_nodal_drag(const Medium &medium);
     void         assemble_schur(const Medium &medium);
-    unsigned int solve(const Medium &medium);
+    unsigned int solve(const Medium &medium, const double rough);
     // invalid_unsigned_int where a fresh preconditioner does not help either.
-    unsigned int solve_to(const double tolerance, const Medium &medium);
+    unsigned int solve_to(const double  tolerance,
+                          const double  part,
+                          const Medium &medium);
     void         balance_closed_vessel();
     void         level_pressure();
     bool         is_stale() const;
@@ -350,7 +354,7 @@ namespace graupel
     dealii::Tensor<2, 3> viscous_stress(const dealii::Tensor<2, 3> &gradient) const;
     bool                 is_prescribed(const unsigned int node) const;
     void                 continue_to_prescribed(NodalVectorField &field) const;
-    Report               solve_nonlinear(const Medium &medium);
+    Report               solve_nonlinear(const Medium &medium, const double rough);
     double               take_carrier();
     void                 restore_solution();
     void                 level_published_pressure();

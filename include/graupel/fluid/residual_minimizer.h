@@ -28,11 +28,13 @@ namespace graupel
     /** The system is another from now on. */
     void forget();
 
-    /** Iterations until |b - A x| <= @p tolerance, or invalid_unsigned_int where that
-     * needs more than @p maximum or cannot be reached. Collective. */
+    /** Iterations until |b - A x| is at most @p tolerance, or @p part of what it was at
+     * first, or invalid_unsigned_int where that needs more than @p maximum or cannot be
+     * reached. Collective. */
     unsigned int solve(BlockVector       &x,
                        const BlockVector &b,
                        const double       tolerance,
+                       const double       part,
                        const unsigned int maximum);
 
   private:
