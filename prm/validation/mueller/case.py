@@ -106,12 +106,17 @@ def figure(results):
     parts = picture.subplots(len(VELOCITIES), len(LINES))
     for row, velocity in zip(parts, VELOCITIES):
         for axes, (line, height, quantity, limits) in zip(row, LINES):
-            axes.set_title(f"{line}, {velocity} m/s", fontsize=7)
+            name = "void fraction" if quantity == "void_fraction" else "velocity"
+            axes.set_title(f"{name} [{UNITS[quantity]}], {height * 1e3:g} mm, {velocity} m/s",
+                           fontsize=5)  # fmt: skip
+            axes.tick_params(labelsize=6)
+            axes.set_xlabel("from the side wall [mm]", fontsize=6)
             if velocity in limits:
                 x, value = points(velocity, height, quantity)
-                axes.plot(x * 1e3, value, "o", color=GREY, markersize=2)
+                axes.plot(x * 1e3, value, "o", color=GREY, markersize=2, label="measured")
             for mesh, colour in zip(MESHES, (BLUE, GREEN, VERMILLION)):
                 if results.has(name_of(velocity, mesh)):
                     x, values = bins(results[name_of(velocity, mesh)], line)
-                    axes.plot(x * 1e3, values[quantity], color=colour)
+                    axes.plot(x * 1e3, values[quantity], color=colour, label=mesh)
+    parts[0][0].legend(fontsize=5)
     return picture
