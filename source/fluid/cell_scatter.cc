@@ -37,14 +37,7 @@ namespace graupel
   {
     for (unsigned int i = 0; i < 2; ++i)
       for (unsigned int j = 0; j < 2; ++j)
-        {
-          int *row_starts, *columns;
-          AssertThrow(
-            const_cast<Epetra_CrsMatrix &>(matrix.block(i, j).trilinos_matrix())
-                .ExtractCrsDataPointers(row_starts, columns, blocks[i][j].values) == 0,
-            dealii::ExcMessage("The flow's matrix is not stored by rows."));
-          blocks[i][j].row_starts = row_starts;
-        }
+        blocks[i][j] = compressed_rows(matrix.block(i, j));
     std::vector<Constrained> found;
     for (unsigned int cell = 0; cell < space.n_cells(); ++cell)
       if (find_constrained(cell, found))
@@ -172,8 +165,8 @@ namespace graupel
           {
             const unsigned int row   = local_index(nodes, r);
             const auto        &block = blocks[block_of(r)];
-            double *const      into[2]{block[0].values + block[0].row_starts[row],
-                                       block[1].values + block[1].row_starts[row]};
+            double *const      into[2]{block[0].values + block[0].starts[row],
+                                       block[1].values + block[1].starts[row]};
             for (unsigned int c = 0; c < n_unknowns; ++c)
               if (place[r][c] != nowhere)
                 into[block_of(c)][place[r][c]] += system(r, c);

@@ -1,3 +1,4 @@
+#include <graupel/fluid/compressed_rows.h>
 #include <graupel/fluid/node_blocks.h>
 
 #include <Epetra_CrsMatrix.h>
@@ -9,20 +10,6 @@ namespace graupel
   namespace
   {
     constexpr unsigned int nowhere = dealii::numbers::invalid_unsigned_int;
-
-    // The compressed rows of a matrix, which Trilinos owns.
-    struct Rows
-    {
-      explicit Rows(const dealii::TrilinosWrappers::SparseMatrix &matrix)
-      {
-        auto &epetra = const_cast<Epetra_CrsMatrix &>(matrix.trilinos_matrix());
-        AssertThrow(epetra.ExtractCrsDataPointers(starts, columns, values) == 0,
-                    dealii::ExcMessage("The flow's matrix is not stored by rows."));
-      }
-
-      int    *starts, *columns;
-      double *values;
-    };
   } // namespace
 
   NodeBlockMatrix::NodeBlockMatrix(
@@ -60,7 +47,7 @@ namespace graupel
             }
         }
 
-    const Rows rows(of_pressure);
+    const CompressedRows rows = compressed_rows(of_pressure);
     row_starts.assign(1, 0);
     for (unsigned int row = 0; row < n_owned; ++row)
       {
@@ -79,7 +66,7 @@ namespace graupel
     for (unsigned int unknown = 0; unknown < 4; ++unknown)
       for (unsigned int block = 0; block < 2; ++block)
         {
-          const Rows rows(original.block(unknown / 3, block));
+          const CompressedRows rows = compressed_rows(original.block(unknown / 3, block));
           for (unsigned int node = 0; node < n_rows(); ++node)
             {
               const unsigned int row   = unknown < 3 ? 3 * node + unknown : node;

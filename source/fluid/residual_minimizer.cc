@@ -50,40 +50,41 @@ namespace graupel
   }
 
   void
-  ResidualMinimizer::products(const NodeBlockVector &vector, const unsigned int n)
+  ResidualMinimizer::products(const NodeBlockVector &vector, const unsigned int first)
   {
-    removed.assign(n + 1, 0.);
+    removed.assign(n_basis - first + 1, 0.);
     const unsigned int size = vector.locally_owned_size();
     for (unsigned int begin = 0; begin < size; begin += chunk)
       {
         const unsigned int length = std::min(chunk, size - begin);
         const float *const x      = vector.begin() + begin;
-        for (unsigned int i = 0; i <= n; ++i)
+        for (unsigned int i = first; i <= n_basis; ++i)
           {
-            const float *const y = (i < n ? basis[i].begin() : vector.begin()) + begin;
-            NodeUnknowns       part[4]{0.f, 0.f, 0.f, 0.f};
-            unsigned int       k = 0;
+            const float *const y =
+              (i < n_basis ? basis[i].begin() : vector.begin()) + begin;
+            NodeUnknowns part[4]{0.f, 0.f, 0.f, 0.f};
+            unsigned int k = 0;
             for (; k + 16 <= length; k += 16)
               for (unsigned int j = 0; j < 4; ++j)
                 part[j] += unknowns_of(x + k, j) * unknowns_of(y + k, j);
             for (; k < length; k += 4)
               part[0] += unknowns_of(x + k, 0) * unknowns_of(y + k, 0);
-            removed[i] += reduce((part[0] + part[1]) + (part[2] + part[3]));
+            removed[i - first] += reduce((part[0] + part[1]) + (part[2] + part[3]));
           }
       }
     dealii::Utilities::MPI::sum(removed, vector.get_mpi_communicator(), removed);
   }
 
   void
-  ResidualMinimizer::project(NodeBlockVector &vector, const unsigned int n)
+  ResidualMinimizer::project(NodeBlockVector &vector)
   {
-    products(vector, n);
+    products(vector, 0);
     const unsigned int size = vector.locally_owned_size();
     for (unsigned int begin = 0; begin < size; begin += chunk)
       {
         const unsigned int length = std::min(chunk, size - begin);
         float *const       x      = vector.begin() + begin;
-        for (unsigned int i = 0; i < n; ++i)
+        for (unsigned int i = 0; i < n_basis; ++i)
           {
             const float *const y = basis[i].begin() + begin;
             const float        h = removed[i];
@@ -121,7 +122,7 @@ namespace graupel
     double              before = 0., square = 0.;
     for (unsigned int turn = 0; turn < 2; ++turn)
       {
-        project(image, n_basis);
+        project(image);
         if (turn == 0)
           before = removed[n_basis];
         square = squared_rest();
@@ -134,7 +135,6 @@ namespace graupel
     image *= 1. / column[n_basis];
     triangle.resize(n_basis);
     triangle.push_back(column);
-    share.push_back(0.);
     ++n_basis;
     return true;
   }
@@ -189,7 +189,7 @@ namespace graupel
                               const unsigned int maximum,
                               unsigned int      &iterations)
   {
-    project(residual, n_basis);
+    project(residual);
     share.assign(removed.begin(), removed.begin() + n_basis);
     double left        = std::sqrt(std::max(0., squared_rest()));
     bool   hardly_fell = false;
@@ -203,11 +203,11 @@ namespace graupel
         if (!is_extended)
           return false;
         const unsigned int last = n_basis - 1;
-        products(residual, n_basis);
-        const double found = removed[last];
-        share[last]        = found;
+        products(residual, last);
+        const double found = removed[0];
+        share.push_back(found);
         residual.add(-found, basis[last]);
-        const double now = std::sqrt(std::max(0., removed[n_basis] - found * found));
+        const double now = std::sqrt(std::max(0., squared_rest()));
         hardly_fell      = now > hardly * left;
         left             = now;
       }

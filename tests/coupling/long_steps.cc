@@ -45,11 +45,11 @@ namespace
 TEST(LongSteps, AFreeParticleAnswersAndOneInBalanceStays)
 {
   // 0.1 mm glass in air, at ten times the limit of an explicit drag in a dense bed.
-  const double dt       = 17e-3;
-  const auto   settings = glass(fluid_of(1.2, 1.8e-5), "gidaspow", 1e-4, 4e-3, 0.01);
-  const auto  &gravity  = settings.gravity;
-  Tube         tube(settings, {{0., 0., 2e-3}});
-  auto        &particles = tube.dem.particles();
+  const double dt     = 17e-3;
+  const auto settings = glass(FluidProperties{1.2, 1.8e-5}, "gidaspow", 1e-4, 4e-3, 0.01);
+  const auto &gravity = settings.gravity;
+  Tube        tube(settings, {{0., 0., 2e-3}});
+  auto       &particles = tube.dem.particles();
   if (particles.n_owned == 0)
     return;
   const double mass     = particles.mass[0];
@@ -92,8 +92,8 @@ TEST(LongSteps, ABedAtRestHasTheSameFlowWithAnyStep)
   // Glass in air and in water, at up to twenty times the limit. 1e-4: the slip of the
   // drag is that of the last step, and the sixth has forgotten how the flow began.
   for (const auto &[fluid, law, diameter, velocity, dt] :
-       {std::tuple(fluid_of(1.2, 1.8e-5), "gidaspow", 1e-4, 0.006, 0.1),
-        std::tuple(fluid_of(998., 1e-3), "wen-yu", 3e-3, 0.02, 0.5)})
+       {std::tuple(FluidProperties{1.2, 1.8e-5}, "gidaspow", 1e-4, 0.006, 0.1),
+        std::tuple(FluidProperties{998., 1e-3}, "wen-yu", 3e-3, 0.02, 0.5)})
     {
       double drops[2];
       for (const bool is_steady : {true, false})

@@ -1,6 +1,8 @@
 #ifndef graupel_tests_coupling_tube_h
 #define graupel_tests_coupling_tube_h
 
+#include "../say.h"
+
 #include <graupel/coupling/exchange.h>
 #include <graupel/dem/dem.h>
 
@@ -10,24 +12,6 @@
 
 namespace graupel
 {
-  /** std::cout on the first rank, nowhere on the others. */
-  inline std::ostream &
-  say()
-  {
-    static std::ostream nowhere(nullptr);
-    return dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0 ? std::cout
-                                                                         : nowhere;
-  }
-
-  inline FluidProperties
-  fluid_of(const double density, const double viscosity)
-  {
-    FluidProperties result;
-    result.density   = density;
-    result.viscosity = viscosity;
-    return result;
-  }
-
   /** Equal spheres in a tube with a fluid that rises through it. */
   struct Tube
   {
@@ -38,7 +22,7 @@ namespace graupel
       double                diameter = 0.02, height = 0.05, cell = 2.5e-3; // [m]
       double                particle = 2e-3; // diameter of a sphere [m]
       double                density  = 998.; // of the spheres [kg/m^3]
-      FluidProperties       fluid    = fluid_of(998., 1e-3);
+      FluidProperties       fluid    = {998., 1e-3};
       double                velocity = 0.;       // superficial [m/s]
       std::string           law      = "wen-yu"; // or "none", without drag
       std::optional<double> filter_length;       // [m], instead of auto

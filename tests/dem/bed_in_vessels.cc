@@ -16,7 +16,7 @@ namespace
   {
   protected:
     Layers()
-      : tube(cylinder(std::sqrt(4. / PI * n * n) * d, 60. * d))
+      : tube(Cylinder{std::sqrt(4. / PI * n * n) * d, 60. * d})
     {
     }
 
@@ -159,8 +159,8 @@ namespace
     expect_no_bed(bed_in(Vessel(tube)));
   }
 
-  // A bubble as wide as the vessel does not end the bed, wherever it is: its top is that of
-  // what lies above, with 5 % of the solid and more. Less than that above it is spray.
+  // A bubble as wide as the vessel does not end the bed, wherever it is: its top is that
+  // of what lies above, with 5 % of the solid and more. Less than that above it is spray.
   // Limit: with a bubble in it the middle half is less dense, by which the top is found.
   TEST_F(Layers, ABubbleDoesNotEndTheBed)
   {

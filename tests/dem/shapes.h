@@ -55,15 +55,6 @@ namespace graupel
     return triangles;
   }
 
-  inline Cylinder
-  cylinder(const double diameter, const double height)
-  {
-    Cylinder result;
-    result.diameter = diameter;
-    result.height   = height;
-    return result;
-  }
-
   /**
    * A cylinder of 25 mm; a square duct of 16 mm; a slab of 44 mm x 10 mm; a cone of 45
    * degrees, from 8 mm to 40 mm across; a pyramid of four planes that meet at a point.
@@ -82,18 +73,18 @@ namespace graupel
     };
     result.push_back(
       {"cylinder",
-       Vessel(cylinder(0.025, height)),
+       Vessel(Cylinder{0.025, height}),
        [=](const Point<3> &x, const double room) {
          return std::hypot(x[0], x[1]) <= 0.0125 - room && x[2] >= room &&
                 x[2] <= height - room;
        },
        [](const double) { return dealii::numbers::PI * 0.0125 * 0.0125; }});
     result.push_back({"duct",
-                      Vessel(cylinder(0.0228, height), four_sides(0.008, 0.008)),
+                      Vessel(Cylinder{0.0228, height}, four_sides(0.008, 0.008)),
                       in_box(0.008, 0.008),
                       [](const double) { return 0.016 * 0.016; }});
     result.push_back({"slab",
-                      Vessel(cylinder(0.046, height), four_sides(0.022, 0.005)),
+                      Vessel(Cylinder{0.046, height}, four_sides(0.022, 0.005)),
                       in_box(0.022, 0.005),
                       [](const double) { return 0.044 * 0.010; }});
 
@@ -102,7 +93,7 @@ namespace graupel
     const double pi = dealii::numbers::PI, of_circle = n / 2. * std::sin(2. * pi / n);
     result.push_back(
       {"cone",
-       Vessel(cylinder(0.042, height), {}, {{frustum(r, bottom, R, top, n), true}}),
+       Vessel(Cylinder{0.042, height}, {}, {{frustum(r, bottom, R, top, n), true}}),
        [=](const Point<3> &x, const double room) {
          return std::hypot(x[0], x[1]) <= r + x[2] - bottom - std::sqrt(2.) * room &&
                 x[2] >= bottom + room && x[2] <= top - room;
@@ -120,7 +111,7 @@ namespace graupel
         {Point<3>(0., 0., 0.004), dealii::Tensor<1, 3>({s * x, s * y, -c})});
     result.push_back(
       {"pyramid",
-       Vessel(cylinder(0.1, 0.04), slopes),
+       Vessel(Cylinder{0.1, 0.04}, slopes),
        [=](const Point<3> &x, const double room) {
          const double half = (x[2] - 0.004) / 2. - room / s;
          return std::abs(x[0]) <= half && std::abs(x[1]) <= half && x[2] <= 0.04 - room;

@@ -18,26 +18,9 @@ namespace graupel
     ValidationVessel(const DemParameters &parameters,
                      const double         diameter,
                      const double         height)
-      : mesh(cylinder(diameter, height), cells(0.4 * diameter), MPI_COMM_WORLD)
+      : mesh({diameter, height}, {0.4 * diameter}, MPI_COMM_WORLD)
       , dem(parameters, mesh, costs)
     {
-    }
-
-    static Cylinder
-    cylinder(const double diameter, const double height)
-    {
-      Cylinder cylinder;
-      cylinder.diameter = diameter;
-      cylinder.height   = height;
-      return cylinder;
-    }
-
-    static MeshParameters
-    cells(const double size)
-    {
-      MeshParameters parameters;
-      parameters.cell_size = size;
-      return parameters;
     }
 
     /** Place and motion of one particle, on all ranks; collective. */
@@ -81,8 +64,8 @@ namespace graupel
     }
 
     VesselMesh mesh;
-    CostSheet    costs;
-    Dem          dem;
+    CostSheet  costs;
+    Dem        dem;
   };
 
   /** Prints a line, once. */

@@ -14,12 +14,12 @@ namespace
   using dealii::Point;
   using dealii::numbers::PI;
 
-  const std::string duct        = GRAUPEL_SOURCE_DIR "/prm/vessels/side-inlet.msh";
-  const Cylinder    around_duct = cylinder(0.022628, 0.06);
+  const std::string duct = GRAUPEL_SOURCE_DIR "/prm/vessels/side-inlet.msh";
+  const Cylinder    around_duct{0.022628, 0.06};
 
   TEST(VesselShape, AFullCylinderIsItsCircleToTheLastBit)
   {
-    const Cylinder tube = cylinder(0.0251, 0.169);
+    const Cylinder tube{0.0251, 0.169};
     const Vessel   vessel(tube, vessel_walls(tube));
     EXPECT_EQ(vessel.cross_section(0.03), tube.cross_section());
     EXPECT_EQ(vessel.volume(0.01, 0.04), tube.cross_section() * (0.04 - 0.01));
@@ -74,14 +74,14 @@ namespace
     EXPECT_FALSE(all[4].vessel.hydraulic_diameter());
 
     // A level plane raises the floor, another one is a lid.
-    const Vessel between(cylinder(0.012, 0.02),
+    const Vessel between(Cylinder{0.012, 0.02},
                          {{Point<3>(0., 0., 0.003), dealii::Tensor<1, 3>({0., 0., -1.})},
                           {Point<3>(0., 0., 0.017), dealii::Tensor<1, 3>({0., 0., 1.})}});
     EXPECT_EQ(between.floor(), 0.003);
     EXPECT_EQ(between.ceiling(), 0.017);
     EXPECT_TRUE(between.is_tube());
     EXPECT_EQ(between.volume(0., 0.004),
-              cylinder(0.012, 0.02).cross_section() * (0.004 - 0.003));
+              (Cylinder{0.012, 0.02}.cross_section() * (0.004 - 0.003)));
     EXPECT_EQ(between.cross_section(0.002), 0.);
   }
 
@@ -105,7 +105,7 @@ namespace
     for (auto &triangle : bodies[2].triangles)
       for (auto &corner : triangle)
         corner += dealii::Tensor<1, 3>({0.004, -0.002, 0.});
-    const Vessel vessel(cylinder(2. * radius, 0.02), spaces, bodies);
+    const Vessel vessel(Cylinder{2. * radius, 0.02}, spaces, bodies);
 
     const auto in_frustum = [](const Point<3> &x,
                                const double    r,
@@ -247,7 +247,7 @@ namespace
 
   TEST(VesselShape, FollowsItsWalls)
   {
-    const Cylinder tube  = cylinder(0.012, 0.02);
+    const Cylinder tube{0.012, 0.02};
     auto           walls = vessel_walls(tube);
     Vessel         vessel(tube, walls);
     Wall           piston;

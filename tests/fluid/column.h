@@ -1,26 +1,16 @@
 #ifndef tests_fluid_column_h
 #define tests_fluid_column_h
 
+#include "../say.h"
+
 #include <graupel/fluid/flow_solver.h>
 
-#include <deal.II/base/mpi.h>
-
 #include <functional>
-#include <iostream>
 
 using namespace graupel;
 
 constexpr double air_density   = 1.18415;
 constexpr double air_viscosity = 1.85508e-5;
-
-// std::cout on the first rank, nowhere on the others.
-inline std::ostream &
-say()
-{
-  static std::ostream nowhere(nullptr);
-  return dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0 ? std::cout
-                                                                       : nowhere;
-}
 
 // A column with a few hundred cells, the flow in it, and its medium.
 struct Column

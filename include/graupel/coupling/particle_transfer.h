@@ -2,7 +2,7 @@
 #define graupel_coupling_particle_transfer_h
 
 #include <graupel/dem/particles/particle_store.h>
-#include <graupel/fluid/flow_space.h>
+#include <graupel/mesh/nodal_space.h>
 
 namespace graupel
 {

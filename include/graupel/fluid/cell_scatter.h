@@ -2,6 +2,7 @@
 #define graupel_fluid_cell_scatter_h
 
 #include <graupel/fluid/block_preconditioner.h>
+#include <graupel/fluid/compressed_rows.h>
 #include <graupel/fluid/flow_space.h>
 
 #include <deal.II/lac/affine_constraints.h>
@@ -39,13 +40,6 @@ namespace graupel
       std::vector<std::pair<unsigned int, double>> weights;
     };
 
-    // A compressed row storage that Trilinos owns.
-    struct Block
-    {
-      const int *row_starts;
-      double    *values;
-    };
-
     // Of an entry in its row: (row, column) of the cell's matrix.
     using Places = std::array<std::array<std::uint16_t, n_unknowns>, n_unknowns>;
 
@@ -59,7 +53,7 @@ namespace graupel
     const FlowSpace                             &space;
     const dealii::AffineConstraints<double>     &constraints;
     dealii::TrilinosWrappers::BlockSparseMatrix &matrix;
-    std::array<std::array<Block, 2>, 2>          blocks;
+    std::array<std::array<CompressedRows, 2>, 2> blocks;
     // By cell: its number among the places, or invalid_unsigned_int.
     std::vector<unsigned int>             direct;
     std::vector<Places>                   places;

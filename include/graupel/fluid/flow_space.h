@@ -9,9 +9,6 @@
 
 namespace graupel
 {
-  /** Three numbers a node. */
-  using NodalVectorField = std::array<NodalVector, 3>;
-
   /**
    * The flow's unknowns on the nodes, and everything about them that depends on
    * the mesh alone and is computed once: numbering, basis functions at the

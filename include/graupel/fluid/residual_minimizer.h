@@ -49,13 +49,13 @@ namespace graupel
     // A new direction and its image, if there is one.
     bool extend(const NodeBlockVector &source);
     // Takes out what the vectors of the basis have of the vector, to be found in removed.
-    void project(NodeBlockVector &vector, const unsigned int n);
+    void project(NodeBlockVector &vector);
     void add_directions(BlockVector &x);
-    // What project() has left of the square of the vector.
+    // What is left of the square of the vector without what removed has of it.
     double squared_rest() const;
-    // Sums over all ranks of the products of a vector with the first of the basis and, in
-    // the end, with itself.
-    void products(const NodeBlockVector &vector, const unsigned int n);
+    // Sums over all ranks of the products of a vector with those of the basis from the
+    // first on and, in the end, with itself.
+    void products(const NodeBlockVector &vector, const unsigned int first);
 
     const dealii::TrilinosWrappers::BlockSparseMatrix &exact;
     const NodeBlockMatrix                             &system;

@@ -15,6 +15,9 @@ namespace graupel
   /** One number a node: owned nodes of this rank, ghosts readable on request. */
   using NodalVector = dealii::LinearAlgebra::distributed::Vector<double>;
 
+  /** Three numbers a node. */
+  using NodalVectorField = std::array<NodalVector, 3>;
+
   /**
    * The nodes of the mesh and their trilinear basis functions psi_k: the
    * partition of unity on which void fraction, drag and the flow live.
