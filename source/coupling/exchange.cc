@@ -5,8 +5,6 @@ namespace graupel
 {
   namespace
   {
-    // Of the filtered solid fraction at a particle, whatever the filter's overshoot [-].
-    constexpr double least_solids = 1e-3;
     // How far upstream Foscolo & Gibilaro's layers feel the void fraction, in diameters,
     // and from which density over the particles' on a fluid is taken for a liquid [-].
     constexpr double foscolo_gibilaro_distance = 2. / 3., least_liquid = 0.05;
@@ -204,7 +202,6 @@ namespace graupel
         });
       }
     put_back_old_fields();
-    yield_to_pressure();
     add_forces();
   }
 
@@ -269,30 +266,6 @@ namespace graupel
           return solids.by_gradient.local_element(k) * gradient[i].local_element(k) -
                  solids.by_velocity.local_element(k) * interstitial[i].local_element(k);
         });
-      }
-  }
-
-  void
-  Exchange::yield_to_pressure()
-  {
-    MovingSolids &solids = *result.solids;
-    NodalVector   yielding;
-    nodes.initialize(yielding);
-    spread(yielding, [&](const unsigned int row) {
-      return response.yielding[row] * volume[row] * volume[row] /
-             std::max(1. - flow_alpha[row], least_solids);
-    });
-    if (!result.shares_pressure)
-      solids.by_gradient = 0.;
-    solids.by_gradient += yielding;
-    solids.by_gradient.update_ghost_values();
-    for (unsigned int i = 0; i < 3; ++i)
-      {
-        for (unsigned int k = 0; k < yielding.locally_owned_size(); ++k)
-          solids.flux[i].local_element(k) +=
-            yielding.local_element(k) * gradient[i].local_element(k);
-        nodes.hanging_nodes.distribute(solids.flux[i]);
-        solids.flux[i].update_ghost_values();
       }
   }
 

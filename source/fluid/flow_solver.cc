@@ -165,13 +165,24 @@ namespace graupel
   }
 
   FlowSolver::Report
-  FlowSolver::step(const Medium &medium, const double step, const double rough)
+  FlowSolver::step(const Medium                &medium,
+                   const double                 step,
+                   const double                 rough,
+                   const std::function<bool()> &look_again)
   {
-    const CostSheet::Scope timing(costs, CostSheet::fluid);
-    const FlowHistory      before        = history();
-    const auto             recipe_before = recipe;
-    const double           next_time     = std::isfinite(step) ? now + step : now;
-    Report                 report;
+    std::optional<CostSheet::Scope> timing(std::in_place, costs, CostSheet::fluid);
+    const FlowHistory               before      = history();
+    const NodalVectorField          flux_before = flux_now;
+    const NodalVector pressure_before = pressure_now, relative_before = relative_pressure;
+    const auto        recipe_before = recipe;
+    const double      next_time     = std::isfinite(step) ? now + step : now;
+    Report            report;
+    const auto        is_to_repeat = [&] {
+      timing.reset();
+      const bool repeat = look_again && look_again();
+      timing.emplace(costs, CostSheet::fluid);
+      return repeat;
+    };
     try
       {
         prepare_rates(medium, step);
@@ -181,10 +192,15 @@ namespace graupel
             prepare_rates(medium, step);
           }
         boundaries.update(next_time, superficial_velocity, density, medium.void_fraction);
-        report = solve_nonlinear(medium, rough);
+        do
+          solve_nonlinear(medium, rough, report);
+        while (is_to_repeat());
       }
     catch (...)
       {
+        flux_now          = flux_before;
+        pressure_now      = pressure_before;
+        relative_pressure = relative_before;
         restore_solution();
         recipe           = recipe_before;
         fresh_iterations = before.fresh_iterations;
@@ -197,37 +213,39 @@ namespace graupel
     report.mass_imbalance       = relative_to_flow(mass_error());
     report.worst_node_imbalance = relative_to_flow(worst_node);
     now                         = next_time;
-    keep_history(medium, step);
+    keep_history(medium, step, flux_before);
     find_worst_cell(medium, report);
     return report;
   }
 
-  FlowSolver::Report
-  FlowSolver::solve_nonlinear(const Medium &medium, const double rough)
+  void
+  FlowSolver::solve_nonlinear(const Medium &medium, const double rough, Report &report)
   {
-    Report report;
+    unsigned int repetitions = 0;
     do
       {
         assemble(medium);
         report.iterations += solve(medium, rough);
         report.change = take_carrier();
-        ++report.nonlinear_iterations;
+        ++repetitions;
       }
     while (report.change > parameters.nonlinear_tolerance &&
-           report.nonlinear_iterations < parameters.nonlinear_iterations);
+           repetitions < parameters.nonlinear_iterations);
+    report.nonlinear_iterations += repetitions;
     if (parameters.nonlinear_iterations > 1 &&
         !(report.change <= parameters.nonlinear_tolerance))
       throw SolverFailure("The flow did not reach its nonlinear tolerance within " +
                           std::to_string(parameters.nonlinear_iterations) +
                           " nonlinear iterations.");
-    return report;
+    publish();
   }
 
   void
-  FlowSolver::keep_history(const Medium &medium, const double step)
+  FlowSolver::keep_history(const Medium           &medium,
+                           const double            step,
+                           const NodalVectorField &flux_before)
   {
-    flux_old = flux_now;
-    publish();
+    flux_old = flux_before;
     update_unresolved(medium);
     alpha_older   = alpha_old;
     alpha_old     = medium.void_fraction;

@@ -253,17 +253,18 @@ class InTime(CaseTest):
 
     def test_steps_of_ten_times_the_response_are_stable_and_right(self):
         # Glass of 0.1 mm in air. At rest the drop is that of any step; a bed that comes loose
-        # within one step swings once, and then the air carries more of it with each step.
+        # is carried from the first step on, but for what friction at the wall does: 1.5
+        # times its weight if the fluid did not know that it lifts off.
         short = self.finished("fine", {"Flow/superficial velocities": 0.006})
         run = self.finished("fine", {"Flow/time step": 3e-2})
         resting, loose = run.rows("cases.csv")
         self.assert_close(resting["pressure_drop"], short.case["pressure_drop"], 1e-3, "at rest")
         self.assertFalse(resting["fluidized"])
-        late = [row for row in run.rows("monitors.csv") if row["phase"] == "flow"][-3:]
-        for row in late:
-            self.assert_close(row["fluid_force"], loose["weight"], 0.25, "carried by the air")
-        for before, after in zip(late, late[1:]):
-            self.assertGreater(after["fluid_force"], before["fluid_force"], "it swings")
+        rows = [row for row in run.rows("monitors.csv") if row["phase"] == "flow"]
+        moving = [row for row in rows if row["case"] == rows[-1]["case"]]
+        self.assertGreater(len(moving), 3)
+        for row in moving:
+            self.assert_close(row["fluid_force"], loose["weight"], 0.06, "carried by the air")
 
     def test_filters_and_scales_that_resolve_nothing_are_told(self):
         values = {"Flow/superficial velocities": 0.3, "Coupling/filter length": 5e-4}

@@ -157,8 +157,7 @@ namespace graupel
      *
      * with @p response's velocity v at F = 0, and in place of 1 - alpha the solids carry
      * S M^-1 W^T (D V) of the pressure gradient. Where drag and pressure balance, the
-     * force on a particle is -V / (1 - alpha) grad p; held ones yield to its change by
-     * the flux -S M^-1 W^T (yielding V^2 / (1 - alpha)) grad (p - p_old).
+     * force on a particle is -V / (1 - alpha) grad p.
      *
      * A virtual mass M counts as a further beta of M/dt past the velocity that the fluid
      * brings along (AddedForces); what the fluid feels of the latter is taken node by
@@ -268,9 +267,6 @@ namespace graupel
     void put_back_old_fields();
     // beta_p (W S u)_p - V_p (W S grad p)_p of the last forces(), by row [N].
     std::vector<dealii::Tensor<1, 3>> old_forces() const;
-    // Lets the solids give way to a change of the pressure gradient since the last
-    // forces().
-    void yield_to_pressure();
     // x = S M^-1 W^T of a function of the own rows.
     template <typename Function>
     void spread(NodalVector &x, const Function &value);

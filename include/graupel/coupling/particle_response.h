@@ -18,14 +18,14 @@ namespace graupel
     std::vector<dealii::Tensor<1, 3>> velocity;
     /** By row, 0 for a particle that is held [s/kg]. */
     std::vector<double> mobility;
-    /** By row: mobility of a held particle for a change of the force since the last step,
-     * as contacts may give way; it acts on continuity alone [s/kg]. */
-    std::vector<double> yielding;
     /** By row: 1 for one that nothing holds, 0 for one that contacts hold [-]. */
     std::vector<double> looseness;
     /** The fluid's step [s]; infinite for one that seeks a steady flow. */
     double step = std::numeric_limits<double>::infinity();
   };
+
+  /** Of an own particle [N]. */
+  using ForceOfRow = std::function<dealii::Tensor<1, 3>(const unsigned int row)>;
 
   /** They go on as they do, whatever the fluid does. */
   ParticleResponse held_response(const ParticleArrays &particles);
@@ -38,27 +38,37 @@ namespace graupel
    *   v + (1 - lambda) step / m (F + m g).
    *
    * A free particle has lambda = 0, which makes this the implicit step. One that rests
-   * has lambda = 1 and stays, so that a bed at rest has the same flow with any step. It
-   * may come loose where A is small, though. It then yields to a change of the force,
+   * has lambda = 1 and stays, so that a bed at rest has the same flow with any step.
+   * Particles lighter than the fluid bounce, and the fluid's inertia with them: l =
+   * min(1, rho V / m - 1) of one, if that is positive, also moves by
    *
-   *   yielding = (1 - l) lambda step / m max(0, 1 - (A / (0.3 m g'))^2),
+   *   lambda l step / m (0.2 + 0.8 max(0, 1 - (A / (0.3 m g'))^2)) (F - F_0),
    *
-   * with the weight in the fluid m g'. A free mobility is enough: a bed that comes
-   * loose unforeseen is stable with a quarter of it over 1 - alpha. Particles
-   * lighter than the fluid bounce, and the fluid's inertia with them: l = min(1, rho V /
-   * m - 1) of one, if that is positive, also moves by
-   *
-   *   lambda l step / m (0.2 + 0.8 max(0, 1 - (A / (0.3 m g'))^2)) (F - F_0).
-   *
-   * Of both nothing is left when the force no longer changes. @p gravity [m/s^2];
-   * buoyancy in a fluid of @p density [kg/m^3].
+   * with the weight in the fluid m g'. Nothing of it is left when the force no longer
+   * changes. @p gravity [m/s^2]; buoyancy in a fluid of @p density [kg/m^3].
    */
-  ParticleResponse particle_response(
-    const ParticleArrays                                              &particles,
-    const std::function<dealii::Tensor<1, 3>(const unsigned int row)> &contact_force,
-    const dealii::Tensor<1, 3>                                        &gravity,
-    const double                                                       density,
-    const double                                                       step);
+  ParticleResponse particle_response(const ParticleArrays       &particles,
+                                     const ForceOfRow           &contact_force,
+                                     const dealii::Tensor<1, 3> &gravity,
+                                     const double                density,
+                                     const double                step);
+
+  /**
+   * Contacts push and do not pull: a particle that they hold comes loose where what acts
+   * on it, A = F + m g, has turned around. All do where the sum of A turns against what
+   * they press on walls with, or against their weight where that is small, and has
+   * changed by a tenth of it; what the walls' friction holds adds to their weight then.
+   * F is @p force, of the fluid with buoyancy by row [N], after a solution with
+   * @p response; @p particles have that of the last step. Such rows of the response
+   * become free, and how many did is returned, of all ranks. Collective.
+   */
+  unsigned int release(ParticleResponse                        &response,
+                       const ParticleArrays                    &particles,
+                       const ForceOfRow                        &contact_force,
+                       const std::vector<dealii::Tensor<1, 3>> &force,
+                       const dealii::Tensor<1, 3>              &gravity,
+                       const double                             density,
+                       MPI_Comm                                 communicator);
 } // namespace graupel
 
 #endif

@@ -9,6 +9,7 @@
 #include <graupel/fluid/residual_minimizer.h>
 #include <graupel/fluid/time_scheme.h>
 
+#include <functional>
 #include <optional>
 
 namespace graupel
@@ -178,11 +179,16 @@ namespace graupel
      * this and the last media by the same formula as the acceleration. With the step
      * FlowSolver::steady all rates are 0: one linear solve towards the steady state. Of a
      * flow that is to be solved for again @p rough of the residual may be left, whatever
-     * the mass balance [-].
+     * the mass balance [-]. Where @p look_again says so on all ranks, after a solution
+     * that flux() and pressure() show, it has changed drag or solids of the medium, and
+     * the step is solved once more.
      * Throws SolverFailure where a solve does not converge, and then is as it was before;
      * InputError where a vessel without a prescribed pressure cannot hold what flows in.
      */
-    Report step(const Medium &medium, const double step, const double rough = 0.);
+    Report step(const Medium                &medium,
+                const double                 step,
+                const double                 rough      = 0.,
+                const std::function<bool()> &look_again = {});
 
     /**
      * Goes on from @p flux [m/s] and @p pressure [Pa] through @p void_fraction,
@@ -354,12 +360,14 @@ namespace graupel
     dealii::Tensor<2, 3> viscous_stress(const dealii::Tensor<2, 3> &gradient) const;
     bool                 is_prescribed(const unsigned int node) const;
     void                 continue_to_prescribed(NodalVectorField &field) const;
-    Report               solve_nonlinear(const Medium &medium, const double rough);
-    double               take_carrier();
-    void                 restore_solution();
-    void                 level_published_pressure();
-    void                 publish();
-    void                 keep_history(const Medium &medium, const double step);
+    void   solve_nonlinear(const Medium &medium, const double rough, Report &report);
+    double take_carrier();
+    void   restore_solution();
+    void   level_published_pressure();
+    void   publish();
+    void   keep_history(const Medium           &medium,
+                        const double            step,
+                        const NodalVectorField &flux_before);
     template <typename Solver, typename RecipeType>
     static auto fields_of_history(Solver &solver, RecipeType &recipe);
     void        append_unresolved(VesselMesh::CellBytes &bytes) const;

@@ -15,6 +15,10 @@ namespace graupel
     // Of its residual, what a linear system of a steady flow may leave while the flow
     // still changes from one to the next [-].
     constexpr double while_it_changes = 0.02;
+    // Solutions of a step in which particles come loose, at most, and the part of all
+    // particles for which another one is not worth its cost [-].
+    constexpr unsigned int most_solutions = 4;
+    constexpr double       few_released   = 0.01;
   } // namespace
 
   CoupledFlow::CoupledFlow(const RunParameters &parameters,
@@ -161,25 +165,51 @@ namespace graupel
   }
 
   FlowSolver::Report
-  CoupledFlow::flow_past_bed(const double step, const double rough)
+  CoupledFlow::flow_past_bed(const double step)
   {
     const double               density       = parameters.fluid.density;
     const dealii::Tensor<1, 3> gravity       = parameters.dem.gravity();
+    ParticleArrays            &bed           = dem.particles();
     const auto                 contact_force = [&](const unsigned int row) {
       return dem.contact_force(row);
     };
-    if (std::isfinite(step))
-      particles_and_fluid->update_drag(
-        dem.particles(),
-        particle_response(dem.particles(), contact_force, gravity, density, step));
-    else
-      particles_and_fluid->update_drag(dem.particles());
-    const auto report = solver->step(particles_and_fluid->medium(), step, rough);
-    dem.particles().external_force =
-      particles_and_fluid->forces(dem.particles(), *solver, density, gravity);
+    auto response = particle_response(bed, contact_force, gravity, density, step);
+    particles_and_fluid->update_drag(bed, response);
+    unsigned int solutions   = 0;
+    const auto   comes_loose = [&] {
+      if (step <= longest_step || ++solutions == most_solutions)
+        return false;
+      const auto force = particles_and_fluid->forces(bed, *solver, density, gravity);
+      const auto freed = release(
+        response, bed, contact_force, force, gravity, density, mesh.communicator());
+      if (freed <= few_released * dem.n_global())
+        return false;
+      particles_and_fluid->update_drag(bed, response);
+      return true;
+    };
+    const auto report =
+      solver->step(particles_and_fluid->medium(), step, 0., comes_loose);
+    take_forces(step);
+    return report;
+  }
+
+  FlowSolver::Report
+  CoupledFlow::steady_flow_past_bed(const double rough)
+  {
+    particles_and_fluid->update_drag(dem.particles());
+    const auto report =
+      solver->step(particles_and_fluid->medium(), FlowSolver::steady, rough);
+    take_forces(FlowSolver::steady);
+    return report;
+  }
+
+  void
+  CoupledFlow::take_forces(const double step)
+  {
+    dem.particles().external_force = particles_and_fluid->forces(
+      dem.particles(), *solver, parameters.fluid.density, parameters.dem.gravity());
     dem.particles().external_torque = particles_and_fluid->torques(dem.particles(), step);
     longest_step                    = particles_and_fluid->stable_step(dem.particles());
-    return report;
   }
 
   void
@@ -216,7 +246,7 @@ namespace graupel
     double       rough      = while_it_changes;
     for (unsigned int n = 1; n <= parameters.sweep.maximum_solves; ++n)
       {
-        auto report = flow_past_bed(FlowSolver::steady, rough);
+        auto report = steady_flow_past_bed(rough);
         iterations += report.iterations;
         tell(report.change);
         if (report.change > parameters.flow.nonlinear_tolerance)

@@ -116,7 +116,9 @@ namespace graupel
     void build();
     void find_stable_step();
     // step() through the bed as it was last looked at.
-    FlowSolver::Report flow_past_bed(const double step, const double rough = 0.);
+    FlowSolver::Report flow_past_bed(const double step);
+    FlowSolver::Report steady_flow_past_bed(const double rough);
+    void               take_forces(const double step);
     // Flux and pressure (4 fields) on the nodes as they are now.
     void take_over(std::array<NodalVector, 4> &fields, const double time);
 
