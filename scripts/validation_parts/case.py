@@ -5,10 +5,12 @@ measured, and case.py with
 
     TITLE, SOURCE         what it is, and where the expected values are from
     runs(quick)           the list of its Runs; shortened ones if quick
-    evaluate(results)     the list of its Comparisons, from the runs (common.runs.Runs)
+    evaluate(results)     the list of its Comparisons, from the runs (common.runs.Runs), each
+                          with the name of its run
     figure(results)       its picture
 
-A case whose runs are not all there yet is evaluated from those that are.
+A case whose runs are not all there is evaluated from those that are; what the page has of
+the others stays.
 """
 
 import csv
@@ -44,6 +46,7 @@ class Comparison:
     limit: float = None  # on the distance of both; None if it is only shown
     relative: bool = True  # the limit is a part of the expected value
     decimals: int = 3  # -1: two digits, however small
+    run: str = ""  # that it is of
 
     @property
     def deviation(self):

@@ -1,7 +1,7 @@
 """The page doc/validation/README.md, from the tables of its cases.
 
 Each case leaves NAME.csv and NAME.png in the folder of the page, so that the page stays whole
-when one of them is run alone.
+when one of them is run alone, or some of its runs. All of them take most of a day.
 """
 
 import csv
@@ -23,38 +23,62 @@ COLUMNS = (
     "relative",
     "met",
     "decimals",
+    "run",
+    "cpu_seconds",
 )
 COMMAND = "scripts/validate"
 
 
-def write_case(name, comparisons, cost, figure, folder):
-    """Leaves what a case came to in the folder of the page; @p cost is its CPU time [s]."""
+def as_row(one, cpu_seconds):
+    """A comparison as a row of NAME.csv."""
+    return {
+        "quantity": one.quantity,
+        "unit": one.unit,
+        "expected": repr(one.expected),
+        "ours": repr(one.ours),
+        "error": "" if one.error is None else repr(one.error),
+        "deviation": repr(one.deviation),
+        "limit": "" if one.limit is None else repr(one.limit),
+        "relative": str(one.relative),
+        "met": "" if one.is_met is None else str(one.is_met),
+        "decimals": str(one.decimals),
+        "run": one.run,
+        "cpu_seconds": f"{cpu_seconds[one.run]:.0f}",
+    }
+
+
+def merged(before, now, order):
+    """The rows of now, and those of before whose runs have none in now and are of the case
+    still, in the order of the runs."""
+    again = {row["run"] for row in now}
+    kept = [row for row in before if row["run"] not in again and row["run"] in order]
+    return sorted(kept + now, key=lambda row: order.index(row["run"]))
+
+
+def write_case(name, comparisons, cpu_seconds, figure, folder):
+    """Leaves what a case came to in the folder of the page; @p cpu_seconds is the CPU time of
+    each run by its name."""
     render(figure, name, folder)
-    with open(folder / f"{name}.csv", "w", newline="", encoding="utf-8") as file:
-        file.write(f"# {COMMAND} {name}; CPU time of its runs [s]:\n# {cost:.0f}\n")
-        rows = csv.writer(file)
-        rows.writerow(COLUMNS)
-        for one in comparisons:
-            rows.writerow(
-                [
-                    one.quantity,
-                    one.unit,
-                    repr(one.expected),
-                    repr(one.ours),
-                    "" if one.error is None else repr(one.error),
-                    repr(one.deviation),
-                    "" if one.limit is None else repr(one.limit),
-                    one.relative,
-                    "" if one.is_met is None else one.is_met,
-                    one.decimals,
-                ]
-            )
+    file = folder / f"{name}.csv"
+    order = [run.name for run in load(name).runs(False)]
+    before = read_case(file) if file.exists() else []
+    rows = merged(before, [as_row(one, cpu_seconds) for one in comparisons], order)
+    drawn = [run for run in order if run in cpu_seconds]
+    with open(file, "w", newline="", encoding="utf-8") as stream:
+        stream.write(f"# {COMMAND} {name}; the figure shows the runs\n# {', '.join(drawn)}\n")
+        writer = csv.DictWriter(stream, COLUMNS)
+        writer.writeheader()
+        writer.writerows(rows)
 
 
 def read_case(file):
-    """What write_case() has left: the rows, and the CPU time [s]."""
-    lines = file.read_text(encoding="utf-8").splitlines()
-    return list(csv.DictReader(lines[2:])), float(lines[1].strip("# "))
+    """The rows that write_case() has left."""
+    return list(csv.DictReader(file.read_text(encoding="utf-8").splitlines()[2:]))
+
+
+def drawn_runs(file):
+    """The runs that the figure beside a table shows, as a text."""
+    return file.read_text(encoding="utf-8").splitlines()[1].strip("# ")
 
 
 def number(text, decimals):
@@ -81,10 +105,11 @@ def distance(row, key, sign=""):
     return ("+" if sign and value > 0.0 else "") + number(row[key], row["decimals"])
 
 
-def case_rows(name, rows, seconds):
+def case_rows(name, rows):
     """The lines of a case in the table."""
     for number_of_row, row in enumerate(rows):
         met = as_flag(row["met"])
+        is_first_of_run = number_of_row == 0 or row["run"] != rows[number_of_row - 1]["run"]
         yield [
             f"[{name}](#{name})" if number_of_row == 0 else "",
             f"{row['quantity']} [{row['unit']}]",
@@ -93,7 +118,7 @@ def case_rows(name, rows, seconds):
             distance(row, "deviation", "+"),
             distance(row, "limit"),
             "" if met is None else verdict(met),
-            f"{seconds:.0f} s" if number_of_row == 0 else "",
+            f"{row['cpu_seconds']} s" if is_first_of_run and row["cpu_seconds"] else "",
         ]
 
 
@@ -103,7 +128,7 @@ def section(name, folder):
     parts = [f"## {name}\n", f"{case.TITLE}\n", f"Expected values: {case.SOURCE}\n"]
     parts.append(f"`{COMMAND} {name}`\n")
     if (folder / f"{name}.png").exists():
-        parts.append(image(name, case.TITLE))
+        parts.append(image(name, f"{case.TITLE}: {drawn_runs(folder / f'{name}.csv')}"))
     return "\n".join(parts)
 
 
@@ -115,7 +140,7 @@ def write_page(folder):
         if not file.exists():
             missing.append(name)
             continue
-        lines += case_rows(name, *read_case(file))
+        lines += case_rows(name, read_case(file))
         sections.append(section(name, folder))
     header = [
         "case",
@@ -125,7 +150,7 @@ def write_page(folder):
         "deviation",
         "limit",
         "met",
-        "CPU time",
+        "CPU time of the run",
     ]
     text = [
         "# Judged by measurement and law\n",

@@ -1,8 +1,9 @@
 #include <graupel/base/time_series.h>
 
+#include <kissfft/kissfft.hh>
+
 #include <algorithm>
 #include <cmath>
-#include <complex>
 
 namespace graupel
 {
@@ -18,8 +19,6 @@ namespace graupel
     // Steps count as even within this part of their length.
     constexpr double even = 1e-6;
 
-    using Complex = std::complex<double>;
-
     double
     mean_of(const std::vector<double> &values)
     {
@@ -27,28 +26,6 @@ namespace graupel
       for (const double value : values)
         sum += value;
       return sum / values.size();
-    }
-
-    // Cooley and Tukey's, of a power of two of values.
-    std::vector<Complex>
-    fourier(const std::vector<Complex> &values)
-    {
-      const std::size_t n = values.size();
-      if (n == 1)
-        return values;
-      std::vector<Complex> even, odd;
-      for (std::size_t k = 0; k < n; ++k)
-        (k % 2 == 0 ? even : odd).push_back(values[k]);
-      even = fourier(even);
-      odd  = fourier(odd);
-      std::vector<Complex> result(n);
-      for (std::size_t k = 0; k < n / 2; ++k)
-        {
-          const Complex turned = std::polar(1., -2. * pi * k / n) * odd[k];
-          result[k]            = even[k] + turned;
-          result[k + n / 2]    = even[k] - turned;
-        }
-      return result;
     }
 
     // Standard error if the values are independent.
@@ -134,13 +111,14 @@ namespace graupel
         window.push_back(0.5 - 0.5 * std::cos(2. * pi * k / n));
         square += window.back() * window.back();
       }
-    const std::size_t n_segments = 2 * segments - 1;
+    const kissfft<double>             fourier(n, false);
+    std::vector<std::complex<double>> part(n), waves(n);
+    const std::size_t                 n_segments = 2 * segments - 1;
     for (std::size_t segment = 0; segment < n_segments; ++segment)
       {
-        std::vector<Complex> part;
         for (std::size_t k = 0; k < n; ++k)
-          part.push_back(window[k] * (values[segment * n / 2 + k] - mean));
-        const auto waves = fourier(part);
+          part[k] = window[k] * (values[segment * n / 2 + k] - mean);
+        fourier.transform(part.data(), waves.data());
         for (std::size_t k = 1; k <= n / 2; ++k)
           // Its negative twin, which the highest frequency does not have, counts too.
           result.density[k - 1] +=

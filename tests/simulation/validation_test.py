@@ -84,15 +84,24 @@ class Page(unittest.TestCase):
     def test_a_line(self):
         row = {"quantity": "drop", "unit": "Pa", "expected": "100.0", "ours": "99.0",
                "error": "0.5", "deviation": "-0.01", "limit": "0.02", "relative": "True",
-               "met": "True", "decimals": "1"}  # fmt: skip
+               "met": "True", "decimals": "1", "run": "a", "cpu_seconds": "12"}  # fmt: skip
         small = {**row, "ours": "1.23e-14", "deviation": "1.23e-14", "relative": "False",
                  "limit": "1e-10", "decimals": "-1", "error": ""}  # fmt: skip
-        (line,) = page.case_rows("gas", [small], 12.3)
+        (line,) = page.case_rows("gas", [small])
         self.assertEqual(line[3:6], ["1.2e-14", "+1.2e-14", "1e-10"])
-        (line,) = page.case_rows("gas", [row], 12.3)
+        first, second, other = page.case_rows("gas", [row, row, {**row, "run": "b"}])
         self.assertEqual(
-            line,
+            first,
             ["[gas](#gas)", "drop [Pa]", "100.0", "99.0 ± 0.5", "-1.0 %", "2.0 %", "yes", "12 s"],
+        )
+        self.assertEqual((second[-1], other[-1]), ("", "12 s"))
+
+    def test_what_other_runs_came_to_stays(self):
+        before = [{"run": "a", "ours": 1}, {"run": "b", "ours": 2}, {"run": "gone", "ours": 3}]
+        now = [{"run": "c", "ours": 4}, {"run": "a", "ours": 5}]
+        self.assertEqual(
+            page.merged(before, now, ["a", "b", "c"]),
+            [{"run": "a", "ours": 5}, {"run": "b", "ours": 2}, {"run": "c", "ours": 4}],
         )
 
 

@@ -64,11 +64,12 @@ def evaluate(results):
         balance, of_balance = mean_with_error(drop + friction)
         where = f"{name}, {case['superficial_velocity']:.2f} m/s"
         rows += [
-            Comparison(f"mean drop, {where}", "Pa", weight, mean, error, LIMIT, decimals=1),
+            Comparison(f"mean drop, {where}", "Pa", weight, mean, error, LIMIT, decimals=1,
+                       run=name),
             Comparison(f"mean drop and friction at the walls, {where}", "Pa", weight, balance,
-                       of_balance, LIMIT, decimals=1),
+                       of_balance, LIMIT, decimals=1, run=name),
             Comparison(f"rms of the drop over the weight, {where}", "-", 0.0,
-                       float(np.std(drop)) / weight, relative=False, decimals=3),
+                       float(np.std(drop)) / weight, relative=False, decimals=3, run=name),
         ]  # fmt: skip
     return rows
 

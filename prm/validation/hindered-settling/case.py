@@ -60,10 +60,10 @@ def evaluate(results):
     speed, error = front_speed(run)
     return [
         Comparison("speed of the front", "m/s", LAW.settling_velocity(void_fraction(run)), speed,
-                   error, LIMIT, decimals=4),
+                   error, LIMIT, decimals=4, run=NAME),
         Comparison("momentum that fluid and particles exchange, imbalance", "-", 0.0,
                    run.number("ledger", "max_momentum_imbalance"), limit=1e-10, relative=False,
-                   decimals=-1),
+                   decimals=-1, run=NAME),
     ]  # fmt: skip
 
 

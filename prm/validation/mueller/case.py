@@ -91,7 +91,8 @@ def evaluate(results):
     return [
         Comparison(f"rms difference, {line}, {velocity} m/s, {mesh} mesh", UNITS[quantity], 0.0,
                    difference(results[name_of(velocity, mesh)], velocity, line, height, quantity),
-                   limit=limits[velocity], relative=False, decimals=4)
+                   limit=limits[velocity], relative=False, decimals=4,
+                   run=name_of(velocity, mesh))
         for velocity in VELOCITIES
         for mesh in MESHES
         if results.has(name_of(velocity, mesh))

@@ -46,10 +46,12 @@ def evaluate(results):
         here = onset(run, AREA)
         rows += [
             Comparison(f"onset at scale {scale}, Ergun", "m/s", ergun_onset(run, AREA), here,
-                       limit=LIMIT, decimals=4),
-            Comparison(f"onset at scale {scale}, measured", "m/s", of_laboratory(), here, decimals=4),
+                       limit=LIMIT, decimals=4, run=name_of(scale)),
+            Comparison(f"onset at scale {scale}, measured", "m/s", of_laboratory(), here, decimals=4,
+                       run=name_of(scale)),
             Comparison(f"void fraction at scale {scale}, that of Ergun's at 0.182 m/s", "-", 0.382,
-                       run.number("bed", "mean_void_fraction"), relative=False, decimals=4),
+                       run.number("bed", "mean_void_fraction"), relative=False, decimals=4,
+                       run=name_of(scale)),
         ]  # fmt: skip
     return rows
 

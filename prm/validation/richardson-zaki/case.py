@@ -84,9 +84,9 @@ def evaluate(results):
         where = f"{tube} mm, scale {scale}, {velocity:.2f} m/s"
         rows += [
             Comparison(f"void fraction, {where}, law", "-", BED.void_fraction(velocity), void, error,
-                       LIMIT, decimals=4),
+                       LIMIT, decimals=4, run=name_of(tube, scale)),
             Comparison(f"void fraction, {where}, measured", "-", of_laboratory(tube, velocity), void,
-                       error, decimals=4),
+                       error, decimals=4, run=name_of(tube, scale)),
         ]  # fmt: skip
     return rows
 

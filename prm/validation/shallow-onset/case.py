@@ -56,7 +56,7 @@ def evaluate(results):
     """Onset of each bed against Ergun's."""
     return [
         Comparison(f"onset, {name}", "m/s", ergun_onset(results[name]), onset(results[name]),
-                   limit=LIMIT, decimals=4)
+                   limit=LIMIT, decimals=4, run=name)
         for name, *_ in BEDS
         if results.has(name)
     ]  # fmt: skip

@@ -1,6 +1,7 @@
 """A slugging bed: van Wachem et al. (2001)."""
 
 import numpy as np
+from matplotlib.mlab import psd
 
 from common.statistics import at_equal_steps, mean_with_error
 from common.style import BLUE, GREY, new_figure
@@ -49,13 +50,11 @@ def later(run):
 def dominant(time, values):
     """Where the spectrum of a series is highest [Hz]: mean of windowed halves that overlap
     (Welch 1967, doi:10.1109/TAU.1967.1161901)."""
+    rate = (len(time) - 1) / (time[-1] - time[0])
     length = len(values) // 2
-    window = np.hanning(length)
-    power = np.zeros(length // 2 + 1)
-    for begin in (0, length // 2, len(values) - length):
-        part = values[begin : begin + length]
-        power += np.abs(np.fft.rfft((part - np.mean(part)) * window)) ** 2
-    frequency = np.fft.rfftfreq(length, (time[-1] - time[0]) / (len(time) - 1))
+    power, frequency = psd(
+        values, NFFT=length, noverlap=length // 2, Fs=rate, detrend="constant"
+    )
     return float(frequency[1:][np.argmax(power[1:])])
 
 
@@ -67,10 +66,12 @@ def evaluate(results):
     mean, error = mean_with_error(height)
     frequency, density = of_laboratory("pressure_psd")
     return [
-        Comparison("mean height", "m", mean_height(), mean, error, 0.10, decimals=4),
+        Comparison("mean height", "m", mean_height(), mean, error, 0.10, decimals=4,
+                   run=NAME),
         Comparison("frequency of the pressure", "Hz", float(frequency[np.argmax(density)]),
-                   dominant(time, pressure), limit=0.15, decimals=2),
-        Comparison("rms of the pressure at 45 mm", "Pa", RMS, float(np.std(pressure)), decimals=1),
+                   dominant(time, pressure), limit=0.15, decimals=2, run=NAME),
+        Comparison("rms of the pressure at 45 mm", "Pa", RMS, float(np.std(pressure)), decimals=1,
+                   run=NAME),
     ]  # fmt: skip
 
 
