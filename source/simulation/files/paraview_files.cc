@@ -82,7 +82,7 @@ namespace graupel
                           Output           &&output,
                           Records           &records)
   {
-    // The best compression takes four times as long for a tenth of the bytes.
+    // The best compression takes five times as long for a hundredth of the bytes.
     dealii::DataOutBase::VtkFlags flags;
     flags.compression_level = decltype(flags.compression_level)::best_speed;
     output.set_flags(flags);
