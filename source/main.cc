@@ -1,4 +1,6 @@
+#include <graupel/base/files.h>
 #include <graupel/base/parameters.h>
+#include <graupel/base/stop_request.h>
 #include <graupel/simulation/files/input_files.h>
 #include <graupel/simulation/files/may_change.h>
 #include <graupel/simulation/report.h>
@@ -18,16 +20,47 @@ namespace
   {
     std::string              file, output;
     std::vector<std::string> overrides;
-    bool check = false, print_parameters = false, print_columns = false, resume = false;
+    bool   check = false, print_parameters = false, print_columns = false, resume = false;
+    double time_limit = 0.; // [min], 0 for none
   };
 
   enum class Outcome
   {
     finished,
-    failed, // a study, some of whose levels have failed
-    told,   // --check and the like: nothing ran
-    refused // bad input
+    told,    // --check and the like: nothing ran
+    refused, // bad input
+    failed,  // a study, some of whose levels have failed
+    stopped, // as it was asked to
+    broken,  // by a fault
+    unwritten
   };
+
+  int
+  exit_status(const Outcome outcome)
+  {
+    switch (outcome)
+      {
+        case Outcome::finished:
+        case Outcome::told:
+          return 0;
+        case Outcome::refused:
+        case Outcome::failed:
+          return 1;
+        case Outcome::broken:
+          return 2;
+        case Outcome::stopped:
+          return 3;
+        case Outcome::unwritten:
+          return 4;
+      }
+    return 2;
+  }
+
+  const char *const statuses =
+    "Exit status: 0, all is done; 1, the input is refused, or levels of a study have "
+    "failed; 2, the run has stopped by a fault; 3, it has stopped by a signal (INT, "
+    "TERM, "
+    "USR1) or its time limit, and --resume goes on; 4, a file cannot be written.\n";
 
   bool
   is_first_rank()
@@ -50,10 +83,11 @@ namespace
       options.print_parameters,
       "Print every parameter with its explanation and value (the default without "
       "FILE), and stop");
-    app.add_flag("--print-columns",
-                 options.print_columns,
-                 "Print the columns of monitors.csv, cases.csv and of bins and what a run that is "
-                 "gone on with may change, as in the documentation, and stop");
+    app.add_flag(
+      "--print-columns",
+      options.print_columns,
+      "Print the columns of monitors.csv, cases.csv and of bins and what a run that is "
+      "gone on with may change, as in the documentation, and stop");
     app
       .add_option("--set", options.overrides, "Override a value: \"Section/name=value\"")
       ->take_all()
@@ -61,7 +95,14 @@ namespace
     app.add_flag(
       "--resume", options.resume, "Go on from the checkpoint in the output directory");
     app.add_option("--output", options.output, "Directory of the results");
-    app.footer("Start with one of the examples, and under MPI with mpirun -np N:\n"
+    app
+      .add_option("--time-limit",
+                  options.time_limit,
+                  "Minutes of wall-clock time after which the run is to be over: before, "
+                  "it writes a checkpoint and stops")
+      ->check(CLI::PositiveNumber);
+    app.footer(std::string(statuses) +
+               "\nStart with one of the examples, and under MPI with mpirun -np N:\n"
                "  graupel prm/packed-bed/ricklick-2x.prm");
   }
 
@@ -129,6 +170,8 @@ namespace
       }
     else
       files.begin(&prm);
+    if (options.time_limit > 0.)
+      simulation.set_time_limit(60. * options.time_limit);
     simulation.run();
     return Outcome::finished;
   }
@@ -188,6 +231,10 @@ namespace
           std::cerr << file.explain(error) << std::endl;
         return Outcome::refused;
       }
+    catch (const Stopped &)
+      {
+        return Outcome::stopped;
+      }
   }
 } // namespace
 
@@ -198,7 +245,9 @@ main(int argc, char **argv)
   bool        report = false, first = true;
   Outcome     outcome = Outcome::finished;
   {
+    prepare_mpi_files();
     dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+    note_signals();
     first = is_first_rank();
 
     CLI::App app(
@@ -225,16 +274,18 @@ main(int argc, char **argv)
     try
       {
         outcome = run(options, directory, report);
-        if (outcome == Outcome::told || outcome == Outcome::refused)
-          return outcome == Outcome::told ? 0 : 1;
+        if (outcome != Outcome::finished && outcome != Outcome::failed)
+          return exit_status(outcome);
       }
     catch (const std::exception &error)
       {
         std::cerr << "The run has stopped. " << error.what() << std::endl;
+        const bool is_file = dynamic_cast<const FileError *>(&error) != nullptr;
+        const int  status  = exit_status(is_file ? Outcome::unwritten : Outcome::broken);
         // Other ranks may be waiting for this one.
         if (dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD) > 1)
-          MPI_Abort(MPI_COMM_WORLD, 1);
-        return 1;
+          MPI_Abort(MPI_COMM_WORLD, status);
+        return status;
       }
   }
   // After MPI has ended: a child process started under MPI is unsafe.
@@ -243,5 +294,5 @@ main(int argc, char **argv)
   if (first)
     std::cout << "Results are in " << directory << (report ? " (open report.html)" : "")
               << std::endl;
-  return outcome == Outcome::finished ? 0 : 1;
+  return exit_status(outcome);
 }

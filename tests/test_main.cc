@@ -1,3 +1,5 @@
+#include <graupel/base/files.h>
+
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/utilities.h>
 
@@ -8,6 +10,7 @@
 int
 main(int argc, char **argv)
 {
+  graupel::prepare_mpi_files();
   dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
   testing::InitGoogleTest(&argc, argv);
 

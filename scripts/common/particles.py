@@ -30,16 +30,13 @@ def decode(text):
 def vectors(directory, place, number=0):
     """What each particle of the set @p number has at the @p place, an XPath, in a piece, as
     an array of shape (n, 3)."""
-    files = sorted((directory / "vtu").glob(f"particles_{number:04d}.*.vtu"))
-    if not files:
-        raise FileNotFoundError(f"{directory}: no particles_{number:04d}.*.vtu")
+    file = directory / "vtu" / f"particles_{number:04d}.vtu"
+    text = re.sub(r"<!--.*?-->", "", file.read_text(encoding="ascii"), flags=re.S)
     parts = []
-    for file in files:
-        text = re.sub(r"<!--.*?-->", "", file.read_text(encoding="ascii"), flags=re.S)
-        # A piece for each rank.
-        for array in ElementTree.fromstring(text.strip()).findall(f".//{place}"):
-            kind = "<f4" if array.get("type") == "Float32" else "<f8"
-            parts.append(np.frombuffer(decode(array.text), kind).reshape(-1, 3).astype(float))
+    # A piece for each rank.
+    for array in ElementTree.fromstring(text.strip()).findall(f".//{place}"):
+        kind = "<f4" if array.get("type") == "Float32" else "<f8"
+        parts.append(np.frombuffer(decode(array.text), kind).reshape(-1, 3).astype(float))
     return np.concatenate(parts)
 
 

@@ -113,7 +113,7 @@ namespace graupel
         if (!goes_on)
           break;
         observe(phase);
-        save_if_due();
+        save_or_stop();
       }
     phase_now = nullptr;
     phase.end();
@@ -234,6 +234,7 @@ namespace graupel
     summary.cpu_seconds  = state.cpu_seconds();
     summary.cells        = state.mesh.triangulation().n_global_active_cells();
     summary.volume = state.mesh.mean_cross_section() * state.parameters.cylinder.height;
+    files.check_log();
     write_summary(files.path("summary.json"), summary, state.communicator);
   }
 } // namespace graupel

@@ -1,15 +1,30 @@
 #include <graupel/base/parameters.h>
+#include <graupel/base/stop_request.h>
 #include <graupel/simulation/simulation.h>
 #include <graupel/simulation/state/bytes.h>
 
 #include <boost/serialization/string.hpp>
 #include <boost/serialization/vector.hpp>
 
+#include <cstring>
 #include <sstream>
 
 namespace graupel
 {
   namespace mpi = dealii::Utilities::MPI;
+
+  namespace
+  {
+    // Of the time that a step and a checkpoint have taken so far, room for them before
+    // the time limit [-].
+    constexpr double room_to_stop = 2.;
+  } // namespace
+
+  void
+  Simulation::set_time_limit(const double seconds)
+  {
+    stop_at = Progress::steady_seconds() + seconds;
+  }
 
   void
   Simulation::resume()
@@ -84,6 +99,8 @@ namespace graupel
   Simulation::save()
   {
     const CostSheet::Scope timing(summary.costs, CostSheet::output);
+    const double           begin = Progress::steady_seconds();
+    files.check_log();
     write_checkpoint(
       files.path("checkpoint"),
       run_state(),
@@ -96,20 +113,48 @@ namespace graupel
         state.mesh.save(file, bytes);
       },
       state.communicator);
-    next_save =
-      Progress::steady_seconds() + 60. * state.parameters.output.checkpoint_interval;
+    const double now = Progress::steady_seconds();
+    save_seconds     = now - begin;
+    last_look        = now;
+    next_save        = now + 60. * state.parameters.output.checkpoint_interval;
   }
 
   void
-  Simulation::save_if_due()
+  Simulation::save_or_stop()
   {
-    const double minutes = state.parameters.output.checkpoint_interval;
+    const double minutes = state.parameters.output.checkpoint_interval,
+                 now     = Progress::steady_seconds();
     if (next_save == 0.)
       next_save = started + 60. * minutes;
-    const bool due = minutes > 0. && Progress::steady_seconds() >= next_save;
-    // One clock for all ranks.
-    if (mpi::broadcast(state.communicator, due, 0))
+    if (last_look > 0.)
+      longest_step = std::max(longest_step, now - last_look);
+    last_look           = now;
+    const bool is_clock = mpi::this_mpi_process(state.communicator) == 0;
+    const bool is_due   = is_clock && minutes > 0. && now >= next_save;
+    const bool is_late =
+      is_clock && now + room_to_stop * (longest_step + save_seconds) >= stop_at;
+    // A signal may have reached any of the ranks.
+    std::vector<int> asked{is_due, is_late, noted_signal()};
+    mpi::max(asked, state.communicator, asked);
+    if (asked[1] != 0 || asked[2] != 0)
+      stop(asked[2]);
+    else if (asked[0] != 0)
       save();
+  }
+
+  void
+  Simulation::stop(const int signal)
+  {
+    save();
+    const std::string why =
+      signal != 0
+        ? std::string("as it was asked to by a signal (") + strsignal(signal) + ")"
+        : std::string("before its time limit");
+    const std::string text = "stopped at " + std::to_string(state.time) + " s, " + why +
+                             "; the state is in " + files.path("checkpoint") +
+                             ": go on from there with --resume";
+    state.progress.say(text);
+    throw Stopped(text);
   }
 
   void

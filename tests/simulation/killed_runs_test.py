@@ -1,8 +1,10 @@
-"""A run that is killed in any phase and gone on with is the run that was not: bit by bit
-on the same number of ranks. Called with the path of the binary.
+"""A run that is killed, asked to stop or at its time limit in any phase, and gone on with, is the
+run that was not: bit by bit on the same number of ranks. Called with the path of the binary.
 """
 
 import os
+import pathlib
+import resource
 import shutil
 import signal
 import subprocess
@@ -29,45 +31,68 @@ MEANS = [
 ] + ["snapshots.csv", "probes.csv"]
 
 
-class KilledRuns(RunTest):
-    """Filling, settling and flow, each killed once."""
+# Exit status of a run that has stopped as it was asked to.
+STOPPED = 3
+# And of one that a file could not be written for.
+NOT_WRITTEN = 4
+
+
+class InterruptedRuns(RunTest):
+    """Runs that end before their time."""
 
     def setUp(self):
         super().setUp()
         shutil.copytree(CASES, self.path, dirs_exist_ok=True)
 
-    def kill_in(self, phase, file, values, ranks):
-        """Kills a run when monitors.csv has some rows of the phase and a checkpoint lies
-        behind them."""
-        output = self.path / "killed"
-        words = command(
-            file, "--output", "killed", *overrides({**values, **ALWAYS}), ranks=ranks
-        )
-        # In a group of its own, so that all ranks are killed, with what started them.
-        run = subprocess.Popen(
-            words, cwd=self.path, env=environment(),
-            stdout=subprocess.DEVNULL, start_new_session=True,
+    def start(self, file, values, ranks):
+        """A run that goes on, in a group of its own."""
+        words = command(file, "--output", "killed", *overrides(values), ranks=ranks)
+        return subprocess.Popen(
+            words, cwd=self.path, env=environment(), text=True,
+            stdout=subprocess.PIPE, start_new_session=True,
         )  # fmt: skip
+
+    def wait_for(self, phase, run, needs_checkpoint):
+        """Until monitors.csv has some rows of the phase."""
+        output = self.path / "killed"
         monitors = output / "monitors.csv"
         # 100 spheres are in after 20 ms; a flow is well on its way.
         rows_before = {"fill": 1, "settle": 3, "flow": 12}[phase]
         for _ in range(6000):
             rows = monitors.read_text().splitlines() if monitors.exists() else []
             in_phase = [row for row in rows if f",{phase}," in row]
-            if len(in_phase) >= rows_before and (output / "checkpoint").is_dir():
-                break
+            has_checkpoint = (output / "checkpoint").is_dir()
+            if len(in_phase) >= rows_before and (has_checkpoint or not needs_checkpoint):
+                return
             self.assertIsNone(run.poll(), f"it ended before that many rows of {phase}")
             time.sleep(0.001)
-        os.killpg(run.pid, signal.SIGKILL)
-        run.wait()
-        return output
 
-    def expect_the_same(self, file, values, phases, further=(), ranks=1):
+    def kill_in(self, phase, file, values, ranks):
+        """Kills all ranks of a run, with what started them, when a checkpoint lies behind
+        the phase's first rows."""
+        run = self.start(file, {**values, **ALWAYS}, ranks)
+        self.wait_for(phase, run, needs_checkpoint=True)
+        os.killpg(run.pid, signal.SIGKILL)
+        run.communicate()
+
+    def stop_in(self, phase, file, values, ranks):
+        """Asks a run to stop: its only checkpoint within a phase is the one that it then
+        writes. mpirun hands on SIGUSR1, but kills at SIGTERM."""
+        run = self.start(file, values, ranks)
+        self.wait_for(phase, run, needs_checkpoint=False)
+        run.send_signal(signal.SIGTERM if ranks == 1 else signal.SIGUSR1)
+        said, _ = run.communicate(timeout=60)
+        self.assertEqual(run.returncode, STOPPED, said)
+        self.assertIn("asked to by a signal", said)
+        self.assertIn("--resume", said)
+
+    def expect_the_same(self, file, values, phases, further=(), ranks=1, end=None):
         whole = self.run_file(file, values, output="whole", ranks=ranks)
         self.assertEqual(whole.status, 0, whole)
         for phase in phases:
             shutil.rmtree(self.path / "killed", ignore_errors=True)
-            output = self.kill_in(phase, file, values, ranks)
+            (end or self.kill_in)(phase, file, values, ranks)
+            output = self.path / "killed"
             self.assertFalse((output / "summary.json").exists())
             resumed = self.run_file(
                 file, values, "--resume", output="killed", ranks=ranks
@@ -82,6 +107,10 @@ class KilledRuns(RunTest):
                 self.assertEqual(len(one), len(other), f"{name}, killed in {phase}")
                 for there, here in zip(one, other):
                     self.assertEqual(there, here, f"{name}, killed in {phase}")
+
+
+class KilledRuns(InterruptedRuns):
+    """Filling, settling and flow, each killed once."""
 
     def test_a_bed_that_moves(self):
         self.expect_the_same("restart.prm", {}, ("fill", "settle"))
@@ -118,6 +147,89 @@ class KilledRuns(RunTest):
             "Output/report": "false",
         }
         self.expect_the_same("bed20.prm", values, ("flow",))
+
+
+class StoppedRuns(InterruptedRuns):
+    """Runs that are asked to stop."""
+
+    def test_by_a_signal(self):
+        self.expect_the_same("restart.prm", {}, ("fill", "flow"), end=self.stop_in)
+
+    def test_by_a_signal_on_two_ranks(self):
+        self.expect_the_same("restart.prm", {}, ("flow",), ranks=2, end=self.stop_in)
+
+    def test_at_once_by_a_second_one(self):
+        # Between two signals a short step may end: try again then.
+        for _ in range(20):
+            run = self.start("restart.prm", {}, 1)
+            self.wait_for("settle", run, needs_checkpoint=False)
+            run.send_signal(signal.SIGUSR1)
+            run.send_signal(signal.SIGTERM)
+            run.communicate(timeout=60)
+            self.assertIn(run.returncode, (STOPPED, 128 + signal.SIGTERM))
+            if run.returncode != STOPPED:
+                return
+        self.fail("the second signal was never felt")
+
+    def test_before_a_time_limit(self):
+        # A thousandth of a minute is over before the first step.
+        def stop(_phase, file, values, _ranks):
+            run = self.run_file(file, values, "--time-limit", 1e-3, output="killed")
+            self.assertEqual(run.status, STOPPED, run)
+            self.assertIn("before its time limit", run.said)
+
+        self.expect_the_same("restart.prm", {}, ("fill",), end=stop)
+        far = self.run_file("restart.prm", {}, "--time-limit", 60)
+        self.assertEqual(far.status, 0, far)
+
+
+class FullDisks(InterruptedRuns):
+    """What cannot be written is told, and nothing is left in halves."""
+
+    def run_within(self, size):
+        """A run whose files cannot grow beyond so many bytes."""
+        words = command("bed20.prm", "--output", "small", *overrides(AVERAGES))
+
+        def limit():
+            signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+            resource.setrlimit(resource.RLIMIT_FSIZE, (size, size))
+
+        return subprocess.run(
+            words, cwd=self.path, env=environment(), preexec_fn=limit,
+            capture_output=True, text=True, timeout=120, check=False,
+        )  # fmt: skip
+
+    def test_files_are_whole_or_named(self):
+        whole = self.run_file("bed20.prm", AVERAGES, output="whole")
+        self.assertEqual(whole.status, 0, whole)
+        sizes = {
+            str(file.relative_to(whole.directory)): file.stat().st_size
+            for file in whole.directory.rglob("*")
+            if file.is_file()
+        }
+        for size in (0, 300, 1000, 3000, 10000, 30000):
+            shutil.rmtree(self.path / "small", ignore_errors=True)
+            run = self.run_within(size)
+            self.assertEqual(run.returncode, NOT_WRITTEN, f"{size}: {run.stdout}{run.stderr}")
+            self.assertRegex(run.stderr, r"Cannot write small/\S+: ")
+            self.assertNotIn("Stacktrace", run.stderr)
+            for file in (self.path / "small").rglob("*.csv"):
+                text = file.read_text(encoding="utf-8")
+                self.assertTrue(text.endswith("\n"), f"{file} is cut at {size} bytes")
+            self.assertEqual(list((self.path / "small").rglob("*.part")), [])
+        self.assertGreater(max(sizes.values()), 30000)
+
+    def test_crashes_leave_no_semaphores(self):
+        # On one that Open MPI's shared file pointers leave, every later run would hang.
+        def semaphores():
+            return {str(file) for file in pathlib.Path("/dev/shm").glob("sem.*")}
+
+        before = semaphores()
+        run = self.start("restart.prm", ALWAYS, 2)
+        self.wait_for("settle", run, needs_checkpoint=True)
+        os.killpg(run.pid, signal.SIGKILL)
+        run.communicate()
+        self.assertEqual(semaphores() - before, set())
 
 
 if __name__ == "__main__":

@@ -106,7 +106,7 @@ class Particles(unittest.TestCase):
         )
         with tempfile.TemporaryDirectory() as folder:
             (pathlib.Path(folder) / "vtu").mkdir()
-            (pathlib.Path(folder) / "vtu" / "particles_0000.0.vtu").write_text(
+            (pathlib.Path(folder) / "vtu" / "particles_0000.vtu").write_text(
                 f'<?xml version="1.0" ?>\n<!-- made -->\n<VTKFile>{pieces}</VTKFile>',
                 encoding="ascii",
             )

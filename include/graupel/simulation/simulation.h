@@ -32,8 +32,15 @@ namespace graupel
      * InputError where there is none or the run is another. Collective. */
     void resume();
 
-    /** Runs to the end and writes all files but report.html. Collective. */
+    /**
+     * Runs to the end and writes all files but report.html. Throws Stopped after a
+     * checkpoint where a signal or the time limit asks for it. Collective.
+     */
     void run();
+
+    /** Lets run() stop before @p seconds of wall-clock time have passed from now on, with
+     * room for a checkpoint. */
+    void set_time_limit(const double seconds);
 
     /** What came out, after run(). */
     const Summary &
@@ -56,8 +63,10 @@ namespace graupel
     void     check_cases(const RunState &saved) const;
     RunState run_state() const;
     void     save();
-    void     save_if_due();
-    void     go_on_from(const RunState &saved);
+    // A checkpoint where it is due, or where the run is to stop.
+    void save_or_stop();
+    void stop(const int signal);
+    void go_on_from(const RunState &saved);
 
     Summary          summary;
     SimulationState  state;
@@ -79,6 +88,10 @@ namespace graupel
     double      next_observation = 0.;  // of packing [s]
     double      started;                // wall clock; before that of a resumed run [s]
     double      next_save = 0.;         // wall clock [s]
+    double      last_look = 0.;         // by save_or_stop(), wall clock [s]
+    // Of a step and of a checkpoint [s].
+    double longest_step = 0., save_seconds = 0.;
+    double stop_at = std::numeric_limits<double>::infinity(); // wall clock [s]
   };
 } // namespace graupel
 

@@ -66,34 +66,37 @@ namespace graupel
   void
   ResultFiles::write_bed(const BedProfiles &bed)
   {
-    if (!is_writer || !(bed.height > 0.))
+    if (!(bed.height > 0.))
       return;
 
-    auto axial = open("bed-axial.csv");
-    axial << "z,void_fraction\n";
-    for (const auto &[z, void_fraction] : bed.axial)
-      axial << z << ',' << void_fraction << '\n';
+    write("bed-axial.csv", [&](std::ostream &file) {
+      file << "z,void_fraction\n";
+      for (const auto &[z, void_fraction] : bed.axial)
+        file << z << ',' << void_fraction << '\n';
+    });
 
-    auto         radial = open("bed-radial.csv");
-    const double bulk   = core_void_fraction(bed);
-    radial << "wall_distance,void_fraction,de_klerk\n";
-    for (const RadialShell &shell : bed.radial)
-      radial << shell.middle() << ',' << shell.void_fraction << ','
+    const double bulk = core_void_fraction(bed);
+    write("bed-radial.csv", [&](std::ostream &file) {
+      file << "wall_distance,void_fraction,de_klerk\n";
+      for (const RadialShell &shell : bed.radial)
+        file << shell.middle() << ',' << shell.void_fraction << ','
              << de_klerk_void_fraction(shell.middle() / bed.diameter, bulk) << '\n';
+    });
 
-    auto janssen = open("bed-janssen.csv");
-    write_janssen(bed, janssen);
+    write("bed-janssen.csv", [&](std::ostream &file) { write_janssen(bed, file); });
 
-    auto coordination = open("bed-coordination.csv");
-    coordination << "z,particles,coordination_number,wall_contacts\n";
-    for (const CoordinationSlab &slab : bed.coordination)
-      coordination << 0.5 * (slab.from + slab.to) << ',' << slab.n_particles << ','
-                   << slab.particles << ',' << slab.walls << '\n';
+    write("bed-coordination.csv", [&](std::ostream &file) {
+      file << "z,particles,coordination_number,wall_contacts\n";
+      for (const CoordinationSlab &slab : bed.coordination)
+        file << 0.5 * (slab.from + slab.to) << ',' << slab.n_particles << ','
+             << slab.particles << ',' << slab.walls << '\n';
+    });
 
-    auto contacts = open("bed-contacts.csv");
-    contacts << "contacts,particles,particles_walls_counted\n";
-    for (std::size_t n = 0; n < bed.histogram_with_walls.size(); ++n)
-      contacts << n << ',' << (n < bed.histogram.size() ? bed.histogram[n] : 0) << ','
-               << bed.histogram_with_walls[n] << '\n';
+    write("bed-contacts.csv", [&](std::ostream &file) {
+      file << "contacts,particles,particles_walls_counted\n";
+      for (std::size_t n = 0; n < bed.histogram_with_walls.size(); ++n)
+        file << n << ',' << (n < bed.histogram.size() ? bed.histogram[n] : 0) << ','
+             << bed.histogram_with_walls[n] << '\n';
+    });
   }
 } // namespace graupel

@@ -1,3 +1,4 @@
+#include <graupel/base/files.h>
 #include <graupel/base/parameters.h>
 #include <graupel/simulation/files/checkpoint.h>
 #include <graupel/simulation/files/may_change.h>
@@ -105,29 +106,20 @@ namespace graupel
   {
     const bool is_writer = dealii::Utilities::MPI::this_mpi_process(communicator) == 0;
     const std::string unfinished = folder + ".new", last = folder + ".old";
-    std::string       failure;
     if (is_writer)
-      try
-        {
-          fs::remove_all(unfinished);
-          fs::create_directory(unfinished);
-          std::ofstream stream(unfinished + "/state.bin", std::ios::binary);
+      {
+        fs::remove_all(unfinished);
+        fs::create_directory(unfinished);
+        write_file(unfinished + "/state.bin", [&](std::ostream &stream) {
           boost::archive::binary_oarchive archive(stream);
           const std::string               version = GRAUPEL_VERSION;
           archive << version;
           RunState copy(state);
           exchange(archive, copy);
           archive << particles;
-          if (!stream.flush())
-            failure = "is the disk full?";
-        }
-      catch (const std::exception &error)
-        {
-          failure = error.what();
-        }
-    failure = dealii::Utilities::MPI::broadcast(communicator, failure, 0);
-    if (!failure.empty())
-      throw std::runtime_error("Cannot write the checkpoint " + folder + ": " + failure);
+        });
+      }
+    MPI_Barrier(communicator);
     write_more(checkpoint_fields(unfinished));
     MPI_Barrier(communicator);
     if (is_writer)
@@ -178,12 +170,11 @@ namespace graupel
             const RunParameters &parameters,
             const DemState      &particles)
   {
-    std::ofstream                   stream(file, std::ios::binary);
-    boost::archive::binary_oarchive archive(stream);
-    const std::string               version = GRAUPEL_VERSION;
-    archive << version << parameters.texts << particles;
-    if (!stream.flush())
-      throw std::runtime_error("Cannot write " + file + ": is the disk full?");
+    write_file(file, [&](std::ostream &stream) {
+      boost::archive::binary_oarchive archive(stream);
+      const std::string               version = GRAUPEL_VERSION;
+      archive << version << parameters.texts << particles;
+    });
   }
 
   DemState

@@ -1,12 +1,18 @@
+#include <graupel/base/files.h>
 #include <graupel/simulation/files/growing_table.h>
 
 #include <cstdlib>
-#include <filesystem>
-#include <stdexcept>
-#include <vector>
+#include <fstream>
+#include <sstream>
 
 namespace graupel
 {
+  namespace
+  {
+    // Times are written with ten digits.
+    constexpr double same_time = 1e-9;
+  } // namespace
+
   GrowingTable::GrowingTable(const std::string &path)
     : path(path)
   {
@@ -15,13 +21,8 @@ namespace graupel
   void
   GrowingTable::add(const std::string &header, const std::string &row)
   {
-    if (!stream.is_open())
-      {
-        stream.open(path);
-        stream << header << '\n';
-      }
-    if (!(stream << row << std::endl))
-      throw std::runtime_error("Cannot write " + path + ": is the disk full?");
+    append_to_file(path, (has_begun ? "" : header + '\n') + row + '\n');
+    has_begun = true;
   }
 
   void
@@ -30,16 +31,13 @@ namespace graupel
     std::ifstream before(path);
     if (!before)
       return;
-    const std::string shortened = path + ".part";
-    std::ofstream     kept(shortened);
-    bool              is_header = true;
-    for (std::string line; std::getline(before, line); is_header = false)
-      if (is_header || std::strtod(line.c_str(), nullptr) <= time * (1. + 1e-9))
+    std::ostringstream kept;
+    bool               is_header = true;
+    // A line without an end is a row that was not written whole.
+    for (std::string line; std::getline(before, line) && !before.eof(); is_header = false)
+      if (is_header || std::strtod(line.c_str(), nullptr) <= time * (1. + same_time))
         kept << line << '\n';
-    if (!kept.flush())
-      throw std::runtime_error("Cannot write " + shortened + ": is the disk full?");
-    kept.close();
-    std::filesystem::rename(shortened, path);
-    stream.open(path, std::ios::app);
+    write_file(path, [&](std::ostream &file) { file << kept.str(); });
+    has_begun = !kept.str().empty();
   }
 } // namespace graupel

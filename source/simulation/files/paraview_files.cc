@@ -1,3 +1,4 @@
+#include <graupel/base/files.h>
 #include <graupel/simulation/files/contact_output.h>
 #include <graupel/simulation/files/particle_output.h>
 #include <graupel/simulation/files/result_files.h>
@@ -7,16 +8,35 @@
 #include <deal.II/fe/fe_system.h>
 #include <deal.II/numerics/data_out.h>
 
+#include <sstream>
+
 // The files for ParaView.
 
 namespace graupel
 {
   namespace
   {
-    // All ranks write into one file: a rank without particles would otherwise leave
-    // a file without points, which ParaView complains about.
-    constexpr unsigned int one_file       = 1;
     constexpr unsigned int counter_digits = 4;
+
+    // This rank's part of the file that all ranks make of what they have to show.
+    template <class Output>
+    std::string
+    part_of_file(const Output &output, MPI_Comm communicator)
+    {
+      namespace mpi = dealii::Utilities::MPI;
+      std::ostringstream whole;
+      output.write_vtu(whole);
+      const std::string  text  = whole.str();
+      const auto         begin = text.find("<Piece"), end = text.rfind("</Piece>");
+      const unsigned int rank = mpi::this_mpi_process(communicator),
+                         n    = mpi::n_mpi_processes(communicator);
+      AssertThrow(begin != std::string::npos && end != std::string::npos,
+                  dealii::ExcMessage("deal.II writes another kind of VTU file."));
+      const auto after = end + std::string("</Piece>\n").size();
+      return (rank == 0 ? text.substr(0, begin) : "") +
+             text.substr(begin, after - begin) +
+             (rank + 1 == n ? text.substr(after) : "");
+    }
 
     // Three nodal vectors as one vector of the unknowns of @p vector_nodes.
     NodalVector
@@ -86,14 +106,14 @@ namespace graupel
     dealii::DataOutBase::VtkFlags flags;
     flags.compression_level = decltype(flags.compression_level)::best_speed;
     output.set_flags(flags);
-    records.emplace_back(time,
-                         "vtu/" + output.write_vtu_with_pvtu_record(directory + "/vtu/",
-                                                                    stem,
-                                                                    records.size(),
-                                                                    communicator,
-                                                                    counter_digits,
-                                                                    one_file));
-    write_records(stem + ".pvd", records);
+    const std::string name =
+      "vtu/" + stem + '_' +
+      dealii::Utilities::int_to_string(records.size(), counter_digits) + ".vtu";
+    write_file(path(name), part_of_file(output, communicator), communicator);
+    records.emplace_back(time, name);
+    write(stem + ".pvd", [&](std::ostream &file) {
+      dealii::DataOutBase::write_pvd_record(file, records);
+    });
   }
 
   void
@@ -162,14 +182,5 @@ namespace graupel
   ResultFiles::add_contacts(const double time, const Dem &dem)
   {
     add_record(time, "contacts", ContactOutput(dem.contact_states()), records.contacts);
-  }
-
-  void
-  ResultFiles::write_records(const std::string &name, const Records &records) const
-  {
-    if (!is_writer)
-      return;
-    auto stream = open(name);
-    dealii::DataOutBase::write_pvd_record(stream, records);
   }
 } // namespace graupel

@@ -1,3 +1,4 @@
+#include <graupel/base/files.h>
 #include <graupel/base/parameters.h>
 #include <graupel/simulation/files/result_files.h>
 
@@ -20,14 +21,15 @@ namespace graupel
       "(profiles|radial|midplane|averages|spectra)-[0-9]+\\.csv|"
       "averages-(lines|planes|midplane)-[0-9]+\\.csv|"
       "bed-(axial|radial|janssen|coordination|contacts)\\.csv|"
-      "(solution|averages|particles|contacts)\\.pvd|report\\.html|bed\\.bin)");
-    const std::regex own_vtu("(solution|averages|particles|contacts)_[0-9.]+\\.p?vtu");
+      "(solution|averages|particles|contacts)\\.pvd|report\\.html|bed\\.bin)(\\.part)?");
+    const std::regex own_vtu(
+      "(solution|averages|particles|contacts)_[0-9.]+\\.p?vtu(\\.part)?");
     const std::regex own_figures(
       "(pressure-profile|pressure-drop|deviation|bottom-force|bed-height|void-fraction|"
       "flux|bubbles|spectra|averages-lines|averages-planes|averages-midplane|radial|bed-"
       "radial|bed-janssen|monitors|cost|probes|particles|study[a-z-]*)"
       "\\.png");
-    const std::regex own_checkpoint("(state|version)\\.bin|fields.*");
+    const std::regex own_checkpoint("(state|version)\\.bin(\\.part)?|fields.*");
 
     void
     remove_own(const fs::path &folder, const std::regex &own)
@@ -132,25 +134,32 @@ namespace graupel
     return directory + "/" + name;
   }
 
-  std::ofstream
-  ResultFiles::open(const std::string &name) const
+  void
+  ResultFiles::check_log()
   {
-    std::ofstream stream(path(name));
-    if (!stream)
-      throw std::runtime_error("Cannot write " + path(name) + ": is the disk full?");
-    stream << std::setprecision(10);
-    return stream;
+    if (is_writer && !log_stream)
+      throw FileError(path("log.txt"), "lines were lost, perhaps as the disk is full");
+  }
+
+  void
+  ResultFiles::write(const std::string                         &name,
+                     const std::function<void(std::ostream &)> &write) const
+  {
+    if (is_writer)
+      write_file(path(name), [&](std::ostream &file) {
+        file << std::setprecision(10);
+        write(file);
+      });
   }
 
   void
   ResultFiles::write_parameters(const dealii::ParameterHandler &prm)
   {
-    if (!is_writer)
-      return;
-    auto stream = open("parameters.prm");
-    prm.print_parameters(stream,
-                         dealii::ParameterHandler::PRM |
-                           dealii::ParameterHandler::KeepDeclarationOrder);
+    write("parameters.prm", [&](std::ostream &file) {
+      prm.print_parameters(file,
+                           dealii::ParameterHandler::PRM |
+                             dealii::ParameterHandler::KeepDeclarationOrder);
+    });
   }
 
   void
@@ -177,12 +186,11 @@ namespace graupel
   void
   ResultFiles::write_cases(const std::vector<CaseResult> &cases)
   {
-    if (!is_writer)
-      return;
-    auto stream = open("cases.csv");
-    stream << header(case_quantities()) << '\n';
-    for (const CaseResult &flow : cases)
-      stream << csv_row(case_quantities(), flow.values) << '\n';
+    write("cases.csv", [&](std::ostream &file) {
+      file << header(case_quantities()) << '\n';
+      for (const CaseResult &flow : cases)
+        file << csv_row(case_quantities(), flow.values) << '\n';
+    });
   }
 
   void
@@ -190,22 +198,23 @@ namespace graupel
                            const CaseView    &flow,
                            const CaseResult  &result)
   {
-    if (!is_writer || flow.axial.empty())
+    if (flow.axial.empty())
       return;
-    const auto   bed    = flow.whole_bed();
-    const Value &ergun  = result["ergun_pressure_drop"];
-    auto         stream = open(numbered("profiles", number));
-    stream << "z,pressure,void_fraction,superficial_velocity,ergun_pressure\n";
-    for (const RegionMean &slab : flow.axial)
-      {
-        stream << slab.height << ',' << slab.pressure << ',' << slab.void_fraction << ','
+    const auto   bed   = flow.whole_bed();
+    const Value &ergun = result["ergun_pressure_drop"];
+    write(numbered("profiles", number), [&](std::ostream &file) {
+      file << "z,pressure,void_fraction,superficial_velocity,ergun_pressure\n";
+      for (const RegionMean &slab : flow.axial)
+        {
+          file << slab.height << ',' << slab.pressure << ',' << slab.void_fraction << ','
                << slab.flux << ',';
-        if (bed && ergun)
-          stream << *ergun *
+          if (bed && ergun)
+            file << *ergun *
                       std::clamp(
                         (bed->bottom + bed->height - slab.height) / bed->height, 0., 1.);
-        stream << '\n';
-      }
+          file << '\n';
+        }
+    });
   }
 
   void
@@ -213,13 +222,12 @@ namespace graupel
                             const std::vector<RegionMean> &profile,
                             const double                   radius)
   {
-    if (!is_writer)
-      return;
-    auto stream = open(numbered("radial", number));
-    stream << "wall_distance,void_fraction,superficial_velocity\n";
-    for (const RegionMean &annulus : profile)
-      stream << radius - annulus.radius << ',' << annulus.void_fraction << ','
+    write(numbered("radial", number), [&](std::ostream &file) {
+      file << "wall_distance,void_fraction,superficial_velocity\n";
+      for (const RegionMean &annulus : profile)
+        file << radius - annulus.radius << ',' << annulus.void_fraction << ','
              << annulus.flux << '\n';
+    });
   }
 
   void
@@ -227,13 +235,14 @@ namespace graupel
                                const std::vector<PlanePoint> &points,
                                const bool                     is_mean)
   {
-    if (!is_writer)
-      return;
-    auto stream = open(numbered(is_mean ? "averages-midplane" : "midplane", number));
-    stream << std::setprecision(6) << "x,z,void_fraction,superficial_velocity,pressure\n";
-    for (const PlanePoint &point : points)
-      stream << point.x << ',' << point.z << ',' << point.void_fraction << ','
-             << point.flux << ',' << point.pressure << '\n';
+    write(numbered(is_mean ? "averages-midplane" : "midplane", number),
+          [&](std::ostream &file) {
+            file << std::setprecision(6)
+                 << "x,z,void_fraction,superficial_velocity,pressure\n";
+            for (const PlanePoint &point : points)
+              file << point.x << ',' << point.z << ',' << point.void_fraction << ','
+                   << point.flux << ',' << point.pressure << '\n';
+          });
   }
 
   void
@@ -254,8 +263,8 @@ namespace graupel
   void
   ResultFiles::write_table(const std::string &name, const std::string &text) const
   {
-    if (is_writer && !text.empty())
-      open(name) << text;
+    if (!text.empty())
+      write(name, [&](std::ostream &file) { file << text; });
   }
 
   void

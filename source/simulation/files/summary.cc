@@ -1,11 +1,9 @@
+#include <graupel/base/files.h>
 #include <graupel/simulation/files/summary.h>
 
 #include <deal.II/base/config.h>
 
 #include <nlohmann/json.hpp>
-
-#include <filesystem>
-#include <fstream>
 
 namespace graupel
 {
@@ -89,14 +87,6 @@ namespace graupel
     root["cost"]   = to_json(summary.costs, summary, communicator);
 
     if (this_mpi_process(communicator) == 0)
-      {
-        const std::string unfinished = path + ".part";
-        std::ofstream     stream(unfinished);
-        stream << root.dump(2) << std::endl;
-        if (!stream)
-          throw std::runtime_error("Cannot write " + path + ": is the disk full?");
-        stream.close();
-        std::filesystem::rename(unfinished, path);
-      }
+      write_file(path, [&](std::ostream &file) { file << root.dump(2) << '\n'; });
   }
 } // namespace graupel

@@ -1,3 +1,4 @@
+#include <graupel/base/files.h>
 #include <graupel/simulation/studies/study.h>
 #include <graupel/simulation/studies/study_levels.h>
 
@@ -35,28 +36,27 @@ namespace graupel
     void
     write_rows(const std::string &file_name, const std::vector<StudyRow> &rows)
     {
-      std::ofstream file(file_name);
-      file << "level,cells,cell_size,time_step,quantity,value,error_or_change,"
-              "observed_order,filter_length,extrapolated,grid_convergence_index,scale,"
-              "standard_error,status\n";
-      for (const StudyRow &row : rows)
-        {
-          const bool computed = !row.result.has_failed;
-          const auto of_level = [computed](const double value) {
-            return computed ? number(value) : "";
-          };
-          file << row.level << ',' << of_level(row.result.cells) << ','
-               << of_level(row.result.cell_size) << ',' << number(row.result.time_step)
-               << ',' << row.measurement.quantity << ',' << number(row.measurement.value)
-               << ',' << number(row.error_or_change) << ',' << number(row.observed_order)
-               << ',' << number(row.result.filter_length) << ','
-               << number(row.extrapolated) << ',' << number(row.index) << ','
-               << number(row.result.scale) << ','
-               << of_level(row.measurement.standard_error) << ','
-               << (computed ? "finished" : "failed") << '\n';
-        }
-      if (!file)
-        throw std::runtime_error("The file " + file_name + " cannot be written.");
+      write_file(file_name, [&](std::ostream &file) {
+        file << "level,cells,cell_size,time_step,quantity,value,error_or_change,"
+                "observed_order,filter_length,extrapolated,grid_convergence_index,scale,"
+                "standard_error,status\n";
+        for (const StudyRow &row : rows)
+          {
+            const bool computed = !row.result.has_failed;
+            const auto of_level = [computed](const double value) {
+              return computed ? number(value) : "";
+            };
+            file << row.level << ',' << of_level(row.result.cells) << ','
+                 << of_level(row.result.cell_size) << ',' << number(row.result.time_step)
+                 << ',' << row.measurement.quantity << ','
+                 << number(row.measurement.value) << ',' << number(row.error_or_change)
+                 << ',' << number(row.observed_order) << ','
+                 << number(row.result.filter_length) << ',' << number(row.extrapolated)
+                 << ',' << number(row.index) << ',' << number(row.result.scale) << ','
+                 << of_level(row.measurement.standard_error) << ','
+                 << (computed ? "finished" : "failed") << '\n';
+          }
+      });
     }
 
     std::string

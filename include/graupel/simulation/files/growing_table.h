@@ -1,22 +1,20 @@
 #ifndef graupel_simulation_files_growing_table_h
 #define graupel_simulation_files_growing_table_h
 
-#include <fstream>
 #include <string>
 
 namespace graupel
 {
   /**
    * A CSV file that gains a row from time to time; its first column is a time. It is made
-   * when its first row comes, and each row is on the disk when add() returns.
+   * when its first row comes. Both functions throw FileError where it cannot be written.
    */
   class GrowingTable
   {
   public:
     explicit GrowingTable(const std::string &path);
 
-    /** Adds @p row, after @p header where the file is new. Throws std::runtime_error
-     * where the file cannot be written. */
+    /** Adds @p row, whole or not at all, after @p header where the file is new. */
     void add(const std::string &header, const std::string &row);
 
     /** Goes on behind the rows of an earlier run up to @p time [s]; later ones are
@@ -25,7 +23,7 @@ namespace graupel
 
   private:
     const std::string path;
-    std::ofstream     stream;
+    bool              has_begun = false;
   };
 } // namespace graupel
 

@@ -15,7 +15,8 @@ namespace graupel
   /**
    * The output directory of a run: every file in it is written here. What each
    * file holds is told in doc/output-files.md. Rank 0 writes, but for the
-   * ParaView files, which all ranks write together.
+   * ParaView files, which all ranks write together. What cannot be written throws
+   * FileError, and earlier files stay.
    */
   class ResultFiles
   {
@@ -51,12 +52,16 @@ namespace graupel
      * later is dropped. */
     void continue_from(const Written &earlier, const double time);
 
-    /** log.txt; writes nothing on ranks other than 0. */
+    /** log.txt; writes nothing on ranks other than 0. Whether it has kept its lines is
+     * told by check_log(). */
     std::ostream &
     log()
     {
       return log_stream;
     }
+
+    /** Throws FileError where lines of log.txt were lost. */
+    void check_log();
 
     /** A row of monitors.csv. */
     void add_monitor(const MonitorRow &row);
@@ -129,17 +134,18 @@ namespace graupel
 
   private:
     void open_log(const std::ios::openmode mode);
+    // A file that rank 0 writes.
+    void write(const std::string                         &name,
+               const std::function<void(std::ostream &)> &write) const;
     // Writes the ParaView files of @p output, the next ones of @p records, whose names
     // begin with @p stem.
     template <class Output>
-    void          add_record(const double       time,
-                             const std::string &stem,
-                             Output           &&output,
-                             Records           &records);
-    void          write_table(const std::string &name, const std::string &text) const;
-    void          write_parameters(const dealii::ParameterHandler &prm);
-    std::ofstream open(const std::string &name) const;
-    void          write_records(const std::string &name, const Records &records) const;
+    void add_record(const double       time,
+                    const std::string &stem,
+                    Output           &&output,
+                    Records           &records);
+    void write_table(const std::string &name, const std::string &text) const;
+    void write_parameters(const dealii::ParameterHandler &prm);
 
     const std::string directory;
     const MPI_Comm    communicator;

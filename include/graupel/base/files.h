@@ -1,0 +1,46 @@
+#ifndef graupel_base_files_h
+#define graupel_base_files_h
+
+#include <deal.II/base/mpi.h>
+
+#include <functional>
+#include <iosfwd>
+#include <stdexcept>
+#include <string>
+
+namespace graupel
+{
+  /** A file that cannot be written, with the cause that the system tells, such as a full
+   * disk. */
+  class FileError : public std::runtime_error
+  {
+  public:
+    /** Of the file @p path. */
+    FileError(const std::string &path, const std::string &cause);
+  };
+
+  /**
+   * Writes the file @p path whole or not at all: what @p write says goes to PATH.part,
+   * which takes the place of an earlier file once it is on the disk. Throws FileError
+   * where it cannot; the earlier file is as it was then.
+   */
+  void write_file(const std::string                         &path,
+                  const std::function<void(std::ostream &)> &write);
+
+  /** The same for a file whose parts the ranks have, one behind another in their order.
+   * Collective; throws on all ranks. */
+  void write_file(const std::string &path,
+                  const std::string &part,
+                  MPI_Comm           communicator);
+
+  /** Keeps Open MPI from semaphores that a crash leaves behind, on which later programs
+   * hang when they open a file together: before MPI is initialised. What the user's own
+   * environment says counts. */
+  void prepare_mpi_files();
+
+  /** Appends @p text to the file @p path, all of it or nothing. Throws FileError where
+   * that cannot be. */
+  void append_to_file(const std::string &path, const std::string &text);
+} // namespace graupel
+
+#endif

@@ -1,0 +1,203 @@
+#include <graupel/base/files.h>
+
+#include <cerrno>
+#include <cstdlib>
+#include <filesystem>
+#include <sstream>
+#include <system_error>
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+namespace graupel
+{
+  namespace
+  {
+    constexpr mode_t readable_by_all = 0666; // less what the user's mask takes away
+
+    [[noreturn]] void
+    throw_cause()
+    {
+      throw std::system_error(errno, std::generic_category());
+    }
+
+    // An open file. Its functions throw std::system_error.
+    class OpenFile
+    {
+    public:
+      OpenFile(const std::string &path, const int flags)
+        : descriptor(::open(path.c_str(), flags | O_CLOEXEC, readable_by_all))
+      {
+        if (descriptor < 0)
+          throw_cause();
+      }
+
+      ~OpenFile()
+      {
+        ::close(descriptor);
+      }
+
+      OpenFile(const OpenFile &)            = delete;
+      OpenFile &operator=(const OpenFile &) = delete;
+
+      std::uint64_t
+      size() const
+      {
+        struct stat status;
+        if (::fstat(descriptor, &status) != 0)
+          throw_cause();
+        return status.st_size;
+      }
+
+      void
+      write(const std::string &text, const std::uint64_t begin)
+      {
+        for (std::size_t done = 0; done < text.size();)
+          {
+            const ssize_t n =
+              ::pwrite(descriptor, text.data() + done, text.size() - done, begin + done);
+            if (n < 0 && errno != EINTR)
+              throw_cause();
+            done += std::max<ssize_t>(n, 0);
+          }
+      }
+
+      void
+      cut(const std::uint64_t size)
+      {
+        if (::ftruncate(descriptor, size) != 0)
+          throw_cause();
+      }
+
+      void
+      send_to_disk()
+      {
+        // Some files, such as pipes, have no disk.
+        if (::fsync(descriptor) != 0 && errno != EINVAL && errno != EROFS)
+          throw_cause();
+      }
+
+    private:
+      const int descriptor;
+    };
+
+    std::string
+    unfinished(const std::string &path)
+    {
+      return path + ".part";
+    }
+
+    void
+    write_part(const std::string  &path,
+               const std::string  &text,
+               const std::uint64_t begin,
+               const int           flags)
+    {
+      OpenFile file(unfinished(path), O_WRONLY | flags);
+      file.write(text, begin);
+      file.send_to_disk();
+    }
+
+    void
+    remove_part(const std::string &path)
+    {
+      std::error_code nobody_asks;
+      std::filesystem::remove(unfinished(path), nobody_asks);
+    }
+
+    std::string
+    cause(const std::system_error &error)
+    {
+      return error.code().message();
+    }
+  } // namespace
+
+  FileError::FileError(const std::string &path, const std::string &cause)
+    : std::runtime_error("Cannot write " + path + ": " + cause + ".")
+  {
+  }
+
+  void
+  write_file(const std::string &path, const std::function<void(std::ostream &)> &write)
+  {
+    std::ostringstream text;
+    write(text);
+    try
+      {
+        write_part(path, text.str(), 0, O_CREAT | O_TRUNC);
+        std::filesystem::rename(unfinished(path), path);
+      }
+    catch (const std::system_error &error)
+      {
+        remove_part(path);
+        throw FileError(path, cause(error));
+      }
+  }
+
+  void
+  write_file(const std::string &path, const std::string &part, MPI_Comm communicator)
+  {
+    namespace mpi           = dealii::Utilities::MPI;
+    const unsigned int rank = mpi::this_mpi_process(communicator);
+    std::string        failure;
+    const auto         attempt = [&](const bool is_mine, const auto &action) {
+      try
+        {
+          if (is_mine)
+            action();
+        }
+      catch (const std::system_error &error)
+        {
+          failure = cause(error);
+        }
+      // What the first rank that has failed says.
+      const unsigned int none = mpi::n_mpi_processes(communicator),
+                         first = mpi::min(failure.empty() ? none : rank, communicator);
+      if (first == none)
+        return;
+      failure = mpi::broadcast(communicator, failure, first);
+      if (rank == 0)
+        remove_part(path);
+      throw FileError(path, failure);
+    };
+
+    const std::uint64_t size  = part.size();
+    std::uint64_t       begin = 0;
+    MPI_Exscan(&size, &begin, 1, MPI_UINT64_T, MPI_SUM, communicator);
+    attempt(rank == 0, [&] { write_part(path, "", 0, O_CREAT | O_TRUNC); });
+    attempt(true, [&] { write_part(path, part, rank == 0 ? 0 : begin, 0); });
+    attempt(rank == 0, [&] { std::filesystem::rename(unfinished(path), path); });
+  }
+
+  void
+  prepare_mpi_files()
+  {
+    // File pointers that ranks share are of no use here. The component sm keeps one in
+    // shared memory, under a semaphore.
+    ::setenv("OMPI_MCA_sharedfp", "^sm", 0);
+  }
+
+  void
+  append_to_file(const std::string &path, const std::string &text)
+  {
+    try
+      {
+        OpenFile            file(path, O_WRONLY | O_CREAT);
+        const std::uint64_t before = file.size();
+        try
+          {
+            file.write(text, before);
+          }
+        catch (const std::system_error &)
+          {
+            file.cut(before);
+            throw;
+          }
+      }
+    catch (const std::system_error &error)
+      {
+        throw FileError(path, cause(error));
+      }
+  }
+} // namespace graupel
