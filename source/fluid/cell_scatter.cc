@@ -1,6 +1,6 @@
 #include <graupel/fluid/cell_scatter.h>
 
-#include <Epetra_CrsMatrix.h>
+#include <deal.II/lac/full_matrix.h>
 
 #include <algorithm>
 
@@ -8,115 +8,110 @@ namespace graupel
 {
   namespace
   {
-    constexpr std::uint16_t nowhere = std::numeric_limits<std::uint16_t>::max();
+    constexpr unsigned int unconstrained = dealii::numbers::invalid_unsigned_int;
 
-    // Flux and pressure are different blocks of the linear system.
-    unsigned int
-    block_of(const unsigned int unknown)
+    // The linear system of any number of nodes, numbered as a cell's.
+    class NodesSystem
     {
-      return unknown % unknowns_per_node < 3 ? 0 : 1;
-    }
+    public:
+      explicit NodesSystem(const unsigned int n_nodes)
+        : matrix(unknowns_per_node * n_nodes, unknowns_per_node * n_nodes)
+        , rhs(unknowns_per_node * n_nodes)
+      {
+      }
 
-    // Of an unknown of the cell, in its block.
-    unsigned int
-    local_index(const FlowSpace::LocalNodes &nodes, const unsigned int unknown)
-    {
-      const unsigned int node      = nodes[unknown / unknowns_per_node],
-                         component = unknown % unknowns_per_node;
-      return component < 3 ? 3 * node + component : node;
-    }
+      double &
+      operator()(const unsigned int row, const unsigned int column)
+      {
+        return matrix(row, column);
+      }
+
+      double &
+      right(const unsigned int row)
+      {
+        return rhs[row];
+      }
+
+    private:
+      dealii::FullMatrix<double> matrix;
+      dealii::Vector<double>     rhs;
+    };
   } // namespace
 
-  CellScatter::CellScatter(const FlowSpace                             &space,
-                           const dealii::AffineConstraints<double>     &constraints,
-                           dealii::TrilinosWrappers::BlockSparseMatrix &matrix)
+  CellScatter::CellScatter(const FlowSpace                         &space,
+                           const dealii::AffineConstraints<double> &constraints,
+                           FlowMatrix                              &matrix)
     : space(space)
     , constraints(constraints)
     , matrix(matrix)
-    , direct(space.n_cells(), dealii::numbers::invalid_unsigned_int)
+    , places(space.n_cells())
+    , number(space.n_cells(), unconstrained)
   {
-    for (unsigned int i = 0; i < 2; ++i)
-      for (unsigned int j = 0; j < 2; ++j)
-        blocks[i][j] = compressed_rows(matrix.block(i, j));
-    std::vector<Constrained> found;
     for (unsigned int cell = 0; cell < space.n_cells(); ++cell)
-      if (find_constrained(cell, found))
-        {
-          direct[cell] = places.size();
-          constrained.push_back(found);
-          places.emplace_back();
-          find_places(cell, places.back());
-        }
-  }
-
-  bool
-  CellScatter::find_constrained(const unsigned int        cell,
-                                std::vector<Constrained> &found) const
-  {
-    found.clear();
-    const unsigned int n_owned = space.owned[1].n_elements();
-    for (const unsigned int node : space.cell_nodes[cell])
-      if (node >= n_owned)
-        return false;
-    const auto &unknowns = space.cell_unknowns[cell];
-    for (unsigned int u = 0; u < n_unknowns; ++u)
-      if (constraints.is_constrained(unknowns[u]))
-        {
-          found.push_back({u, {}});
-          for (const auto &[other, weight] :
-               *constraints.get_constraint_entries(unknowns[u]))
-            {
-              const auto place = std::find(unknowns.begin(), unknowns.end(), other);
-              if (place == unknowns.end())
-                return false;
-              found.back().weights.push_back(
-                {static_cast<unsigned int>(place - unknowns.begin()), weight});
-            }
-        }
-    return true;
-  }
-
-  void
-  CellScatter::find_places(const unsigned int cell, Places &places) const
-  {
-    const auto &nodes    = space.cell_nodes[cell];
-    const auto &unknowns = space.cell_unknowns[cell];
-    const auto  n_fluxes = space.owned[0].size();
-    for (unsigned int r = 0; r < n_unknowns; ++r)
-      for (unsigned int c = 0; c < n_unknowns; ++c)
-        {
-          places[r][c]     = nowhere;
-          const bool bound = constraints.is_constrained(unknowns[r]) ||
-                             constraints.is_constrained(unknowns[c]);
-          if (bound && r != c)
-            continue;
-          const auto &block = matrix.block(block_of(r), block_of(c)).trilinos_matrix();
-          const int   column =
-            block.ColMap().LID(static_cast<int>(unknowns[c] - block_of(c) * n_fluxes));
-          int     n_entries;
-          double *values;
-          int    *columns;
-          block.ExtractMyRowView(local_index(nodes, r), n_entries, values, columns);
-          const int *const entry = std::find(columns, columns + n_entries, column);
-          AssertThrow(entry != columns + n_entries,
-                      dealii::ExcMessage("An entry is missing in the flow's matrix."));
-          places[r][c] = entry - columns;
-        }
-  }
-
-  void
-  CellScatter::condense(const unsigned int cell, CellSystem &system) const
-  {
-    const auto &found = constrained[direct[cell]];
-    for (const Constrained &line : found)
       {
-        const double value =
-          constraints.get_inhomogeneity(space.cell_unknowns[cell][line.unknown]);
+        const Constrained found =
+          find_constrained(space.cell_nodes[cell].data(), nodes_per_cell);
+        if (found.nodes.size() == nodes_per_cell)
+          std::copy(found.places.begin(), found.places.end(), places[cell].begin());
+        if (!found.lines.empty())
+          {
+            number[cell] = constrained.size();
+            constrained.push_back(found);
+          }
+      }
+  }
+
+  CellScatter::Constrained
+  CellScatter::find_constrained(const unsigned int *const nodes,
+                                const unsigned int        n_nodes) const
+  {
+    const auto &partitioner = *space.nodes.measure().get_partitioner();
+    const auto  n_fluxes    = space.owned[0].size();
+    Constrained result;
+    result.nodes.assign(nodes, nodes + n_nodes);
+    const auto unknown_of = [&](const dealii::types::global_dof_index global) {
+      const bool         is_flux   = global < n_fluxes;
+      const unsigned int node      = partitioner.global_to_local(is_flux ? global / 3
+                                                                    : global - n_fluxes),
+                         component = is_flux ? global % 3 : 3;
+      const auto found =
+        std::find(result.nodes.begin(), result.nodes.end(), node) - result.nodes.begin();
+      if (found == static_cast<std::ptrdiff_t>(result.nodes.size()))
+        result.nodes.push_back(node);
+      return static_cast<unsigned int>(unknowns_per_node * found + component);
+    };
+    for (unsigned int a = 0; a < n_nodes; ++a)
+      for (unsigned int c = 0; c < unknowns_per_node; ++c)
+        {
+          const auto node   = partitioner.local_to_global(nodes[a]);
+          const auto global = c < 3 ? 3 * node + c : n_fluxes + node;
+          if (!constraints.is_constrained(global))
+            continue;
+          result.lines.push_back({unknowns_per_node * a + c, global, {}});
+          for (const auto &[other, weight] : *constraints.get_constraint_entries(global))
+            result.lines.back().weights.push_back({unknown_of(other), weight});
+        }
+    for (const unsigned int row : result.nodes)
+      for (const unsigned int column : result.nodes)
+        result.places.push_back(matrix.place(partitioner.local_to_global(row),
+                                             partitioner.local_to_global(column)));
+    return result;
+  }
+
+  template <typename System>
+  void
+  CellScatter::condense(const std::vector<Line> &lines,
+                        const unsigned int       n_unknowns,
+                        System                  &system) const
+  {
+    for (const Line &line : lines)
+      {
+        const double value = constraints.get_inhomogeneity(line.global);
         if (value != 0.)
           for (unsigned int r = 0; r < n_unknowns; ++r)
             system.right(r) -= system(r, line.unknown) * value;
       }
-    for (const Constrained &line : found)
+    for (const Line &line : lines)
       {
         for (const auto &[other, weight] : line.weights)
           {
@@ -127,52 +122,90 @@ namespace graupel
         for (const auto &[other, weight] : line.weights)
           for (unsigned int r = 0; r < n_unknowns; ++r)
             system(r, other) += weight * system(r, line.unknown);
-        system.right(line.unknown) = 0.;
       }
-    for (const Constrained &line : found)
-      system(line.unknown, line.unknown) = std::abs(system(line.unknown, line.unknown));
+    for (const Line &line : lines)
+      {
+        const double diagonal = std::abs(system(line.unknown, line.unknown));
+        for (unsigned int k = 0; k < n_unknowns; ++k)
+          system(line.unknown, k) = system(k, line.unknown) = 0.;
+        system(line.unknown, line.unknown) = diagonal;
+        system.right(line.unknown)         = 0.;
+      }
   }
 
+  template <typename System>
   void
-  CellScatter::add_by_constraints(const unsigned int cell,
-                                  CellSystem        &system,
-                                  BlockVector       &rhs) const
+  CellScatter::scatter(const unsigned int *const nodes,
+                       const unsigned int        n_nodes,
+                       const unsigned int *const places,
+                       System                   &system,
+                       BlockVector              &rhs) const
   {
-    dealii::FullMatrix<double> cell_matrix(n_unknowns, n_unknowns);
-    dealii::Vector<double>     cell_rhs(n_unknowns);
-    for (unsigned int r = 0; r < n_unknowns; ++r)
+    for (unsigned int a = 0; a < n_nodes; ++a)
+      for (unsigned int b = 0; b < n_nodes; ++b)
+        {
+          double *const block = matrix.block(places[n_nodes * a + b]);
+          for (unsigned int j = 0; j < unknowns_per_node; ++j)
+            for (unsigned int i = 0; i < unknowns_per_node; ++i)
+              block[unknowns_per_node * j + i] +=
+                system(unknowns_per_node * a + i, unknowns_per_node * b + j);
+        }
+    for (unsigned int a = 0; a < n_nodes; ++a)
       {
-        cell_rhs[r] = system.right(r);
-        for (unsigned int c = 0; c < n_unknowns; ++c)
-          cell_matrix(r, c) = system(r, c);
+        for (unsigned int i = 0; i < 3; ++i)
+          rhs.block(0).local_element(3 * nodes[a] + i) +=
+            system.right(unknowns_per_node * a + i);
+        rhs.block(1).local_element(nodes[a]) += system.right(unknowns_per_node * a + 3);
       }
-    const auto &unknowns = space.cell_unknowns[cell];
-    constraints.distribute_local_to_global(cell_matrix, unknowns, matrix);
-    constraints.distribute_local_to_global(cell_rhs, unknowns, rhs, cell_matrix);
   }
 
   void
   CellScatter::add(const unsigned int cell, CellSystem &system, BlockVector &rhs) const
   {
-    if (direct[cell] == dealii::numbers::invalid_unsigned_int)
-      add_by_constraints(cell, system, rhs);
-    else
+    constexpr unsigned int n_unknowns = nodes_per_cell * unknowns_per_node;
+    const Constrained     *of_cell =
+      number[cell] == unconstrained ? nullptr : &constrained[number[cell]];
+    if (of_cell && of_cell->nodes.size() > nodes_per_cell)
       {
-        condense(cell, system);
-        const auto   &nodes = space.cell_nodes[cell];
-        const Places &place = places[direct[cell]];
+        const unsigned int n_nodes = of_cell->nodes.size();
+        NodesSystem        wide(n_nodes);
         for (unsigned int r = 0; r < n_unknowns; ++r)
           {
-            const unsigned int row   = local_index(nodes, r);
-            const auto        &block = blocks[block_of(r)];
-            double *const      into[2]{block[0].values + block[0].starts[row],
-                                       block[1].values + block[1].starts[row]};
+            wide.right(r) = system.right(r);
             for (unsigned int c = 0; c < n_unknowns; ++c)
-              if (place[r][c] != nowhere)
-                into[block_of(c)][place[r][c]] += system(r, c);
-            rhs.block(block_of(r)).local_element(row) += system.right(r);
+              wide(r, c) = system(r, c);
           }
+        condense(of_cell->lines, unknowns_per_node * n_nodes, wide);
+        scatter(of_cell->nodes.data(), n_nodes, of_cell->places.data(), wide, rhs);
+      }
+    else
+      {
+        if (of_cell)
+          condense(of_cell->lines, n_unknowns, system);
+        scatter(space.cell_nodes[cell].data(),
+                nodes_per_cell,
+                places[cell].data(),
+                system,
+                rhs);
       }
     system = CellSystem();
+  }
+
+  void
+  CellScatter::add(const unsigned int          node,
+                   const double                resistance,
+                   const dealii::Tensor<1, 3> &source,
+                   BlockVector                &rhs) const
+  {
+    const Constrained  of_node = find_constrained(&node, 1);
+    const unsigned int n_nodes = of_node.nodes.size();
+    NodesSystem        system(n_nodes);
+    for (unsigned int i = 0; i < 3; ++i)
+      {
+        system(i, i)    = resistance;
+        system.right(i) = source[i];
+      }
+    condense(of_node.lines, unknowns_per_node * n_nodes, system);
+    scatter(of_node.nodes.data(), n_nodes, of_node.places.data(), system, rhs);
   }
 } // namespace graupel

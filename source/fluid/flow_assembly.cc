@@ -94,7 +94,7 @@ namespace graupel
   void
   FlowSolver::assemble_system(const Medium &medium)
   {
-    matrix                              = 0.;
+    matrix.clear();
     rhs                                 = 0.;
     const FlowCoefficients coefficients = this->coefficients();
     for (unsigned int cell = 0; cell < space.n_cells(); ++cell)
@@ -102,15 +102,15 @@ namespace graupel
         const CellState state = gather(cell, medium);
         assemble_flow(
           coefficients, state, space.shapes[cell], subscale_history(cell), cell_system);
-        scatter->add(cell, cell_system, rhs);
+        scatter.add(cell, cell_system, rhs);
       }
 
     assemble_inlets();
     assemble_outlets(medium);
     add_nodal_drag(medium);
-    matrix.compress(dealii::VectorOperation::add);
-    node_matrix->take(matrix);
-    minimizer->forget();
+    matrix.compress();
+    node_matrix.take();
+    minimizer.forget();
     rhs.compress(dealii::VectorOperation::add);
   }
 
@@ -123,7 +123,7 @@ namespace graupel
           const double normal_flux = space.normal_component(point, inlet.flux);
           for (unsigned int a = 0; a < nodes_per_cell; ++a)
             cell_system.rhs[3][a] -= point.weight * point.value[a] * normal_flux;
-          scatter->add(point.cell, cell_system, rhs);
+          scatter.add(point.cell, cell_system, rhs);
         }
   }
 
@@ -189,7 +189,7 @@ namespace graupel
               }
           }
       }
-    scatter->add(point.cell, cell_system, rhs);
+    scatter.add(point.cell, cell_system, rhs);
   }
 
   void
@@ -197,25 +197,19 @@ namespace graupel
   {
     // A product of nodal values at a hanging node is not the mean of the products at
     // its parents: only node by node is the drag what the coupling's particles feel.
-    dealii::FullMatrix<double>                   node_matrix(3, 3);
-    dealii::Vector<double>                       node_rhs(3);
-    std::vector<dealii::types::global_dof_index> unknowns(3);
     for (unsigned int k = 0; k < medium.drag.locally_owned_size(); ++k)
       {
         const double measure = space.hanging_measure.local_element(k);
         if (measure == 0.)
           continue;
+        dealii::Tensor<1, 3> source;
         for (unsigned int i = 0; i < 3; ++i)
-          {
-            unknowns[i] = 3 * nodes.measure().get_partitioner()->local_to_global(k) + i;
-            node_matrix(i, i) = measure * medium.drag.local_element(k) /
-                                medium.void_fraction.local_element(k);
-            node_rhs[i] = measure * medium.drag_source[i].local_element(k);
-          }
-        boundaries.constraints().distribute_local_to_global(
-          node_matrix, unknowns, matrix);
-        boundaries.constraints().distribute_local_to_global(
-          node_rhs, unknowns, rhs, node_matrix);
+          source[i] = measure * medium.drag_source[i].local_element(k);
+        scatter.add(k,
+                    measure * medium.drag.local_element(k) /
+                      medium.void_fraction.local_element(k),
+                    source,
+                    rhs);
       }
   }
 

@@ -140,7 +140,7 @@ namespace graupel
     fastest             = recipe->speed;
     assemble_system(medium);
     assemble_schur(medium);
-    preconditioner->refresh(schur);
+    preconditioner.refresh(schur);
     built = recipe;
   }
 } // namespace graupel

@@ -60,9 +60,8 @@ namespace graupel
   void
   FlowSolver::fail_mass_balance()
   {
-    matrix.vmult(residual, solution);
-    residual.sadd(-1., 1., rhs);
-    const bool at_round_off = residual.l2_norm() <= linear_round_off * rhs.l2_norm();
+    const bool at_round_off =
+      minimizer.last_residual().l2_norm() <= linear_round_off * rhs.l2_norm();
     std::ostringstream text;
     text << "The mass balance of the flow is off by " << relative_to_flow(mass_error())
          << " of the flow, above \"Flow solver/mass tolerance\" = "
@@ -108,16 +107,6 @@ namespace graupel
                           volume);
   }
 
-  double
-  FlowSolver::node_error()
-  {
-    // Of the unconstrained unknowns only, as the linear system has them.
-    matrix.block(1, 0).vmult(residual.block(1), solution.block(0));
-    matrix.block(1, 1).vmult_add(residual.block(1), solution.block(1));
-    residual.block(1) -= rhs.block(1);
-    return residual.block(1).linfty_norm();
-  }
-
   bool
   FlowSolver::is_stale() const
   {
@@ -129,7 +118,7 @@ namespace graupel
   FlowSolver::refresh_preconditioner(const Medium &medium)
   {
     assemble_schur(medium);
-    preconditioner->refresh(schur);
+    preconditioner.refresh(schur);
     built = recipe = share(assembled);
   }
 
@@ -142,16 +131,16 @@ namespace graupel
     // with it, and only then with a fresh one.
     const unsigned int patience =
       std::min(parameters.maximum_iterations, std::max(50u, 3 * fresh_iterations));
-    unsigned int iterations = minimizer->solve(solution, rhs, tolerance, part, patience);
+    unsigned int iterations = minimizer.solve(solution, rhs, tolerance, part, patience);
     if (iterations == failed)
       {
         refresh_preconditioner(medium);
         iterations =
-          minimizer->solve(solution, rhs, tolerance, part, parameters.maximum_iterations);
+          minimizer.solve(solution, rhs, tolerance, part, parameters.maximum_iterations);
         if (iterations != failed)
           iterations += patience;
       }
-    worst_node = node_error();
+    worst_node = minimizer.last_residual().block(1).linfty_norm();
     if (is_closed())
       level_pressure();
     boundaries.constraints().distribute(solution);

@@ -1,8 +1,5 @@
 #include <graupel/fluid/flow_solver.h>
 
-#include <deal.II/dofs/dof_tools.h>
-#include <deal.II/lac/block_sparsity_pattern.h>
-
 namespace graupel
 {
   namespace
@@ -66,6 +63,11 @@ namespace graupel
     , boundaries(parameters.boundaries.by_id(nodes.mesh.boundaries()),
                  parameters.boundaries.weigh_inlets,
                  space)
+    , matrix(nodes)
+    , scatter(space, boundaries.constraints(), matrix)
+    , node_matrix(matrix)
+    , preconditioner(node_matrix)
+    , minimizer(matrix, node_matrix, preconditioner)
   {
     for (NodalVectorField *field :
          {&flux_now, &flux_old, &flux_history, &carrier, &latest, &outlet_traction})
@@ -89,26 +91,9 @@ namespace graupel
     alpha_old.update_ghost_values();
     assembled.carrier = assembled.solids = flux_now;
     assembled.void_fraction = assembled.drag = alpha_old;
-    prepare_matrices();
-  }
-
-  void
-  FlowSolver::prepare_matrices()
-  {
-    dealii::TrilinosWrappers::BlockSparsityPattern pattern(
-      space.owned, space.owned, space.relevant, nodes.mesh.communicator());
-    dealii::DoFTools::make_sparsity_pattern(
-      space.dof_handler, pattern, boundaries.constraints(), false);
-    pattern.compress();
-    matrix.reinit(pattern);
-    scatter = std::make_unique<CellScatter>(space, boundaries.constraints(), matrix);
     schur.reinit(nodes.coupling_pattern);
-    node_matrix.emplace(matrix);
-    preconditioner.emplace(*node_matrix);
-    minimizer.emplace(matrix, *node_matrix, *preconditioner);
-    solution.reinit(BlockVector(space.owned, space.relevant, nodes.mesh.communicator()));
-    rhs.reinit(solution);
-    residual.reinit(solution);
+    matrix.initialize(solution);
+    rhs.reinit(BlockVector(space.owned, space.relevant, nodes.mesh.communicator()));
   }
 
   void

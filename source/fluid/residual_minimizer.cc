@@ -22,10 +22,9 @@ namespace graupel
     constexpr unsigned int chunk = 2048;
   } // namespace
 
-  ResidualMinimizer::ResidualMinimizer(
-    const dealii::TrilinosWrappers::BlockSparseMatrix &exact,
-    const NodeBlockMatrix                             &system,
-    const BlockPreconditioner                         &preconditioner)
+  ResidualMinimizer::ResidualMinimizer(const FlowMatrix          &exact,
+                                       const NodeBlockMatrix     &system,
+                                       const BlockPreconditioner &preconditioner)
     : exact(exact)
     , system(system)
     , preconditioner(preconditioner)

@@ -4,9 +4,12 @@
 
 #include <deal.II/dofs/dof_tools.h>
 #include <deal.II/lac/block_sparsity_pattern.h>
+#include <deal.II/lac/full_matrix.h>
+#include <deal.II/lac/trilinos_block_sparse_matrix.h>
 #include <gtest/gtest.h>
 
-// The flow's linear system in single precision by blocks of nodes, against Trilinos'.
+// The flow's linear system by blocks of nodes: how cells are added to it, against
+// deal.II and Trilinos; its copy in single precision; its solution.
 
 namespace
 {
@@ -20,59 +23,235 @@ namespace
            std::floor(std::sin(1. + 12.9898 * k) * 4375.85453) - 0.5;
   }
 
+  void
+  fill_with_noise(BlockVector &vector)
+  {
+    for (unsigned int b = 0; b < 2; ++b)
+      for (const auto k : vector.block(b).locally_owned_elements())
+        vector.block(b)(k) = noise(7 * k + b);
+  }
+
   // A system with the pattern of a flow's on a coarse cylinder, four unknowns a node:
-  // diagonally dominant, not symmetric; pressures see each other as by a Laplacian.
+  // diagonally dominant, not symmetric.
   struct System
   {
     System()
       : mesh({0.02, 0.04}, {4e-3}, MPI_COMM_WORLD)
       , nodes(mesh)
-      , space(nodes, {VesselMesh::top})
+      , matrix(nodes)
     {
+      set([](const auto row, const auto column) {
+        return row == column ? 40. : noise(row * 1009 + column);
+      });
+      matrix.initialize(vector);
+      fill_with_noise(vector);
+    }
+
+    // By row and column: four times the node, and the unknown.
+    template <typename Entry>
+    void
+    set(const Entry &entry)
+    {
+      matrix.clear();
+      const auto &partitioner = matrix.partitioner();
+      for (unsigned int row = 0; row < matrix.n_rows(); ++row)
+        for (unsigned int k = matrix.rows()[row]; k < matrix.rows()[row + 1]; ++k)
+          for (unsigned int i = 0; i < 4; ++i)
+            for (unsigned int j = 0; j < 4; ++j)
+              matrix.block(k)[4 * j + i] =
+                entry(4 * partitioner.local_to_global(row) + i,
+                      4 * partitioner.local_to_global(matrix.columns()[k]) + j);
+      matrix.compress();
+    }
+
+    VesselMesh  mesh;
+    NodalSpace  nodes;
+    FlowMatrix  matrix;
+    BlockVector vector;
+  };
+
+  // A mesh that is refined on one side, with what a flow's boundaries prescribe on it,
+  // and a system by deal.II and Trilinos beside the flow's.
+  struct ConstrainedSystem
+  {
+    ConstrainedSystem()
+      : mesh({0.02, 0.03}, {4e-3}, MPI_COMM_WORLD)
+      , nodes(
+          Column::refine(mesh, [](const auto &x) { return x[0] + 0.3 * x[2] > 4e-3; }))
+      , space(nodes, {VesselMesh::top})
+      , boundaries({{VesselMesh::bottom, {BoundaryCondition::plug, {}}},
+                    {VesselMesh::top, {BoundaryCondition::no_slip, {}}},
+                    {VesselMesh::wall, {BoundaryCondition::slip, {}}}},
+                   false,
+                   space)
+      , matrix(nodes)
+      , scatter(space, boundaries.constraints(), matrix)
+    {
+      NodalVector full;
+      nodes.initialize(full);
+      full = 1.;
+      full.update_ghost_values();
+      boundaries.update(0., 0.4, 1., full);
       dealii::TrilinosWrappers::BlockSparsityPattern pattern(
         space.owned, space.owned, space.relevant, MPI_COMM_WORLD);
-      dealii::AffineConstraints<double> none;
-      none.close();
-      dealii::DoFTools::make_sparsity_pattern(space.dof_handler, pattern, none, false);
+      dealii::DoFTools::make_sparsity_pattern(
+        space.dof_handler, pattern, boundaries.constraints(), false);
       pattern.compress();
-      matrix.reinit(pattern);
-      const auto n_fluxes = matrix.block(0, 0).m();
-      for (unsigned int i = 0; i < 2; ++i)
-        for (unsigned int j = 0; j < 2; ++j)
-          for (const auto row : matrix.block(i, j).locally_owned_range_indices())
-            for (auto entry = matrix.block(i, j).begin(row);
-                 entry != matrix.block(i, j).end(row);
-                 ++entry)
+      expected_matrix.reinit(pattern);
+      expected_rhs.reinit(BlockVector(space.owned, space.relevant, MPI_COMM_WORLD));
+      rhs.reinit(expected_rhs);
+    }
+
+    void
+    add_cell(const unsigned int cell)
+    {
+      const auto first = 100000 * nodes.owned_cells()[cell]->global_active_cell_index();
+      dealii::FullMatrix<double> local(32, 32);
+      dealii::Vector<double>     local_rhs(32);
+      CellSystem                 system;
+      for (unsigned int r = 0; r < 32; ++r)
+        {
+          system.right(r) = local_rhs[r] = noise(first + r);
+          for (unsigned int c = 0; c < 32; ++c)
+            system(r, c) = local(r, c) = noise(first + 32 * (r + 1) + c);
+        }
+      const auto &constraints = boundaries.constraints();
+      const auto &unknowns    = space.cell_unknowns[cell];
+      constraints.distribute_local_to_global(local, unknowns, expected_matrix);
+      constraints.distribute_local_to_global(local_rhs, unknowns, expected_rhs, local);
+      scatter.add(cell, system, rhs);
+    }
+
+    void
+    add_to_node(const unsigned int node)
+    {
+      const auto global = nodes.measure().get_partitioner()->local_to_global(node);
+      if (nodes.hanging_nodes.is_constrained(global))
+        return;
+      dealii::FullMatrix<double>                   local(3, 3);
+      dealii::Vector<double>                       local_rhs(3);
+      std::vector<dealii::types::global_dof_index> unknowns(3);
+      dealii::Tensor<1, 3>                         source;
+      const double                                 resistance = 1. + noise(global);
+      for (unsigned int i = 0; i < 3; ++i)
+        {
+          unknowns[i] = 3 * global + i;
+          local(i, i) = resistance;
+          source[i] = local_rhs[i] = noise(unknowns[i]);
+        }
+      const auto &constraints = boundaries.constraints();
+      constraints.distribute_local_to_global(local, unknowns, expected_matrix);
+      constraints.distribute_local_to_global(local_rhs, unknowns, expected_rhs, local);
+      scatter.add(node, resistance, source, rhs);
+    }
+
+    void
+    compress()
+    {
+      matrix.compress();
+      rhs.compress(dealii::VectorOperation::add);
+      expected_matrix.compress(dealii::VectorOperation::add);
+      expected_rhs.compress(dealii::VectorOperation::add);
+    }
+
+    // Largest difference to an entry of the matrix of deal.II.
+    double
+    worst_entry() const
+    {
+      const auto &partitioner = matrix.partitioner();
+      double      result      = 0.;
+      for (unsigned int row = 0; row < matrix.n_rows(); ++row)
+        for (unsigned int k = matrix.rows()[row]; k < matrix.rows()[row + 1]; ++k)
+          for (unsigned int i = 0; i < 4; ++i)
+            for (unsigned int j = 0; j < 4; ++j)
               {
-                // deal.II makes places for other ranks that no cell has.
-                const auto node        = row / (i == 0 ? 3 : 1),
-                           other       = entry->column() / (j == 0 ? 3 : 1);
-                const bool is_diagonal = i == j && entry->column() == row;
-                if (nodes.coupling_pattern.exists(node, other))
-                  entry->value() = is_diagonal ? 40.
-                                               : noise((i * n_fluxes + row) * 1009 +
-                                                       j * n_fluxes + entry->column());
+                const auto global_row = partitioner.local_to_global(row),
+                           global_column =
+                             partitioner.local_to_global(matrix.columns()[k]);
+                const double expected =
+                  expected_matrix.block(i / 3, j / 3)
+                    .el(i < 3 ? 3 * global_row + i : global_row,
+                        j < 3 ? 3 * global_column + j : global_column);
+                result =
+                  std::max(result, std::abs(matrix.block(k)[4 * j + i] - expected));
               }
-      matrix.compress(dealii::VectorOperation::insert);
-      vector.reinit(BlockVector(space.owned, space.relevant, MPI_COMM_WORLD));
-      for (unsigned int b = 0; b < 2; ++b)
-        for (const auto k : vector.block(b).locally_owned_elements())
-          vector.block(b)(k) = noise(7 * k + b);
+      return dealii::Utilities::MPI::max(result, MPI_COMM_WORLD);
     }
 
     VesselMesh        mesh;
     NodalSpace        nodes;
     FlowSpace         space;
-    BlockSparseMatrix matrix;
-    BlockVector       vector;
+    FlowBoundaries    boundaries;
+    FlowMatrix        matrix;
+    CellScatter       scatter;
+    BlockVector       rhs, expected_rhs;
+    BlockSparseMatrix expected_matrix;
   };
 } // namespace
+
+TEST(LinearSolver, CellsAreAddedAsAffineConstraintsAddsThem)
+{
+  ConstrainedSystem system;
+  unsigned int      hanging = 0, prescribed = 0, slipping = 0;
+  for (const auto node : system.nodes.owned)
+    {
+      const auto *const entries =
+        system.boundaries.constraints().get_constraint_entries(3 * node);
+      if (system.nodes.hanging_nodes.is_constrained(node))
+        ++hanging;
+      else if (entries)
+        ++(entries->empty() ? prescribed : slipping);
+    }
+  for (const unsigned int n : {hanging, prescribed, slipping})
+    EXPECT_GT(dealii::Utilities::MPI::sum(n, MPI_COMM_WORLD), 5u);
+
+  // A second time what was there is gone.
+  for (unsigned int turn = 0; turn < 2; ++turn)
+    {
+      system.matrix.clear();
+      system.expected_matrix = 0.;
+      system.rhs = system.expected_rhs = 0.;
+      for (unsigned int cell = 0; cell < system.space.n_cells(); ++cell)
+        system.add_cell(cell);
+      for (unsigned int node = 0; node < system.matrix.n_rows(); ++node)
+        system.add_to_node(node);
+      system.compress();
+    }
+  const double worst = system.worst_entry();
+  say() << "entries differ by " << worst << '\n';
+  EXPECT_LE(worst, 1e-13);
+  EXPECT_NEAR(system.matrix.divergence_norm(),
+              system.expected_matrix.block(1, 0).linfty_norm(),
+              1e-12);
+  EXPECT_NEAR(system.matrix.pressure_norm(),
+              system.expected_matrix.block(1, 1).linfty_norm(),
+              1e-12);
+  const double size = system.expected_rhs.l2_norm();
+  system.rhs -= system.expected_rhs;
+  say() << "right sides by " << system.rhs.l2_norm() << " of " << size << '\n';
+  EXPECT_GT(size, 1.);
+  EXPECT_LE(system.rhs.l2_norm(), 1e-14 * size);
+
+  // Neither matrix has entries that the other has not.
+  BlockVector x, found;
+  for (BlockVector *vector : {&x, &found})
+    system.matrix.initialize(*vector);
+  fill_with_noise(x);
+  BlockVector expected(system.expected_rhs), source(system.expected_rhs);
+  fill_with_noise(source);
+  system.matrix.vmult(found, x);
+  system.expected_matrix.vmult(expected, source);
+  const double product_size = expected.l2_norm();
+  expected -= found;
+  say() << "products by " << expected.l2_norm() << " of " << product_size << '\n';
+  EXPECT_LE(expected.l2_norm(), 1e-14 * product_size);
+}
 
 TEST(LinearSolver, ABlockOfNodesIsTheMatrixInSinglePrecision)
 {
   System          system;
   NodeBlockMatrix blocks(system.matrix);
-  blocks.take(system.matrix);
+  blocks.take();
   NodeBlockVector x, y;
   blocks.initialize(x);
   blocks.initialize(y);
@@ -104,14 +283,11 @@ TEST(LinearSolver, ABlockOfNodesIsTheMatrixInSinglePrecision)
 TEST(LinearSolver, FactorsOfAMatrixOfOneDiagonalAreItsInverse)
 {
   System system;
-  for (unsigned int i = 0; i < 2; ++i)
-    for (unsigned int j = 0; j < 2; ++j)
-      system.matrix.block(i, j) = 0.;
-  for (const auto row : system.matrix.block(0, 0).locally_owned_range_indices())
-    system.matrix.block(0, 0).set(row, row, 2. + row % 3);
-  system.matrix.compress(dealii::VectorOperation::insert);
+  system.set([](const auto row, const auto column) {
+    return row == column && row % 4 < 3 ? 2. + row % 4 : 0.;
+  });
   NodeBlockMatrix blocks(system.matrix);
-  blocks.take(system.matrix);
+  blocks.take();
   FluxFactors factors;
   factors.refresh(blocks);
   NodeBlockVector x;
@@ -126,7 +302,7 @@ TEST(LinearSolver, SolutionsAreAsExactAsDoublePrecisionAllows)
 {
   System          system;
   NodeBlockMatrix blocks(system.matrix);
-  blocks.take(system.matrix);
+  blocks.take();
   dealii::TrilinosWrappers::SparseMatrix schur;
   schur.reinit(system.nodes.coupling_pattern);
   for (const auto row : schur.locally_owned_range_indices())

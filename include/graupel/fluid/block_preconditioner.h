@@ -4,6 +4,7 @@
 #include <graupel/fluid/flux_factors.h>
 
 #include <deal.II/lac/trilinos_precondition.h>
+#include <deal.II/lac/trilinos_sparse_matrix.h>
 
 namespace graupel
 {

@@ -1,63 +1,81 @@
 #ifndef graupel_fluid_cell_scatter_h
 #define graupel_fluid_cell_scatter_h
 
-#include <graupel/fluid/block_preconditioner.h>
-#include <graupel/fluid/compressed_rows.h>
+#include <graupel/fluid/flow_matrix.h>
 #include <graupel/fluid/flow_space.h>
-
-#include <deal.II/lac/affine_constraints.h>
 
 namespace graupel
 {
   /**
-   * Adds the linear systems of cells to the flow's. Where all nodes of a cell are
-   * this rank's and none hangs, the places of its entries in the sparse matrix
-   * are looked up once and for all, and its constraints condensed here; other
-   * cells go through dealii::AffineConstraints.
+   * Adds the linear systems of cells to the flow's, with the constraints condensed as
+   * dealii::AffineConstraints::distribute_local_to_global() does. The places of a cell's
+   * blocks in the matrix, and what its constrained unknowns depend on, are looked up once
+   * and for all.
    */
   class CellScatter
   {
   public:
     /**
-     * @p space, @p constraints and @p matrix must outlive this object; which
-     * unknowns are constrained, and by which others, must not change, nor must the
-     * matrix's sparsity. Inhomogeneities may.
+     * @p space, @p constraints and @p matrix must outlive this object; which unknowns are
+     * constrained, and by which others, must not change. Inhomogeneities may.
      */
-    CellScatter(const FlowSpace                             &space,
-                const dealii::AffineConstraints<double>     &constraints,
-                dealii::TrilinosWrappers::BlockSparseMatrix &matrix);
+    CellScatter(const FlowSpace                         &space,
+                const dealii::AffineConstraints<double> &constraints,
+                FlowMatrix                              &matrix);
 
-    /** Adds the @p system of the owned cell @p cell, and leaves 0 in it. */
+    /** Adds the @p system of the owned cell @p cell, and leaves 0 in it. @p rhs has the
+     * unknowns of FlowSpace::owned and FlowSpace::relevant. */
     void add(const unsigned int cell, CellSystem &system, BlockVector &rhs) const;
 
-  private:
-    static constexpr unsigned int n_unknowns = nodes_per_cell * unknowns_per_node;
+    /** Adds @p resistance [N s/m] times the flux to the momentum equation of the own node
+     * @p node, and @p source [N] to its right side. */
+    void add(const unsigned int          node,
+             const double                resistance,
+             const dealii::Tensor<1, 3> &source,
+             BlockVector                &rhs) const;
 
-    // An unknown of the cell that others of the cell determine.
-    struct Constrained
+  private:
+    // An unknown that others determine, and these with their weights, by their numbers in
+    // the system of some nodes; and its own one in the flow's.
+    struct Line
     {
       unsigned int                                 unknown;
+      dealii::types::global_dof_index              global;
       std::vector<std::pair<unsigned int, double>> weights;
     };
 
-    // Of an entry in its row: (row, column) of the cell's matrix.
-    using Places = std::array<std::array<std::uint16_t, n_unknowns>, n_unknowns>;
+    // The constraints of some nodes, with the local numbers and the places of these and
+    // of all nodes that they depend on.
+    struct Constrained
+    {
+      std::vector<Line>         lines;
+      std::vector<unsigned int> nodes, places;
+    };
 
-    bool find_constrained(const unsigned int cell, std::vector<Constrained> &found) const;
-    void find_places(const unsigned int cell, Places &places) const;
-    void condense(const unsigned int cell, CellSystem &system) const;
-    void add_by_constraints(const unsigned int cell,
-                            CellSystem        &system,
-                            BlockVector       &rhs) const;
+    // Of a block in the matrix: by node of the row, then of the column.
+    using Places = std::array<unsigned int, nodes_per_cell * nodes_per_cell>;
 
-    const FlowSpace                             &space;
-    const dealii::AffineConstraints<double>     &constraints;
-    dealii::TrilinosWrappers::BlockSparseMatrix &matrix;
-    std::array<std::array<CompressedRows, 2>, 2> blocks;
-    // By cell: its number among the places, or invalid_unsigned_int.
-    std::vector<unsigned int>             direct;
-    std::vector<Places>                   places;
-    std::vector<std::vector<Constrained>> constrained; // as places
+    Constrained find_constrained(const unsigned int *const nodes,
+                                 const unsigned int        n_nodes) const;
+
+    template <typename System>
+    void condense(const std::vector<Line> &lines,
+                  const unsigned int       n_unknowns,
+                  System                  &system) const;
+    template <typename System>
+    void scatter(const unsigned int *const nodes,
+                 const unsigned int        n_nodes,
+                 const unsigned int *const places,
+                 System                   &system,
+                 BlockVector              &rhs) const;
+
+    const FlowSpace                         &space;
+    const dealii::AffineConstraints<double> &constraints;
+    FlowMatrix                              &matrix;
+    std::vector<Places>                      places; // by cell
+    // By cell: its number among those with constraints, or invalid_unsigned_int.
+    std::vector<unsigned int> number;
+    std::vector<Constrained>  constrained;
   };
 } // namespace graupel
 

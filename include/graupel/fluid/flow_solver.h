@@ -297,7 +297,6 @@ namespace graupel
       NodalVectorField solids;
     };
 
-    void             prepare_matrices();
     void             prepare_rates(const Medium &medium, const double step);
     CellState        gather(const unsigned int cell, const Medium &medium) const;
     FlowCoefficients coefficients() const;
@@ -350,7 +349,6 @@ namespace graupel
      */
     double flow_scale() const;
     double round_off() const;
-    double node_error();
     void   find_worst_cell(const Medium &medium, Report &report) const;
     // On a boundary, minus the reference_pressure().
     const NodalVector &boundary_pressure(const dealii::types::boundary_id boundary) const;
@@ -390,19 +388,19 @@ namespace graupel
     double           fastest              = 0.; // largest speed [m/s]
     NodalVectorField outlet_traction;
 
-    dealii::TrilinosWrappers::BlockSparseMatrix matrix;
-    dealii::TrilinosWrappers::SparseMatrix      schur;
-    std::unique_ptr<CellScatter>                scatter;
-    std::optional<NodeBlockMatrix>              node_matrix; // of matrix
-    std::optional<BlockPreconditioner>          preconditioner;
-    std::optional<ResidualMinimizer>            minimizer;
-    unsigned int                                fresh_iterations = 0;
-    unsigned int                                last_iterations  = 0;
+    FlowMatrix                             matrix;
+    CellScatter                            scatter;
+    NodeBlockMatrix                        node_matrix; // of matrix
+    dealii::TrilinosWrappers::SparseMatrix schur;
+    BlockPreconditioner                    preconditioner;
+    ResidualMinimizer                      minimizer;
+    unsigned int                           fresh_iterations = 0;
+    unsigned int                           last_iterations  = 0;
     // Of the preconditioner that is to be used, and of the one that there is: they differ
     // after a restart or a step that failed.
     std::shared_ptr<const Recipe> recipe, built;
     Recipe                        assembled; // the matrix
-    BlockVector                   solution, rhs, residual;
+    BlockVector                   solution, rhs;
     CellSystem                    cell_system;
     double                        worst_node = 0.; // [m^3/s]
 

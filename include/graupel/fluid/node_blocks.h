@@ -1,16 +1,12 @@
 #ifndef graupel_fluid_node_blocks_h
 #define graupel_fluid_node_blocks_h
 
-#include <deal.II/lac/la_parallel_block_vector.h>
-#include <deal.II/lac/la_parallel_vector.h>
-#include <deal.II/lac/trilinos_block_sparse_matrix.h>
+#include <graupel/fluid/flow_matrix.h>
 
 #include <experimental/simd>
 
 namespace graupel
 {
-  using BlockVector = dealii::LinearAlgebra::distributed::BlockVector<double>;
-
   /** Flux and pressure with the four unknowns of a node side by side, in single
    * precision. */
   using NodeBlockVector = dealii::LinearAlgebra::distributed::Vector<float>;
@@ -27,18 +23,17 @@ namespace graupel
   }
 
   /**
-   * The flow's linear system [A G; D C] as blocks of 4 x 4 by pairs of nodes, in single
-   * precision: a third of the bytes of the original in double precision by single
-   * unknowns, and bytes are what a product costs.
+   * The flow's linear system [A G; D C] in single precision: half of the bytes, and bytes
+   * are what a product costs.
    */
   class NodeBlockMatrix
   {
   public:
-    /** Blocks and nodes of @p original, all 0. Collective. */
-    explicit NodeBlockMatrix(const dealii::TrilinosWrappers::BlockSparseMatrix &original);
+    /** Of @p original, which must outlive this object; all 0. */
+    explicit NodeBlockMatrix(const FlowMatrix &original);
 
-    /** Takes the values of @p original, which has the pattern of the first one. */
-    void take(const dealii::TrilinosWrappers::BlockSparseMatrix &original);
+    /** Takes the values that the original has now. */
+    void take();
 
     /** Makes @p vector a zero vector, with room for ghosts. */
     void initialize(NodeBlockVector &vector) const;
@@ -54,25 +49,21 @@ namespace graupel
     void to_nodes(NodeBlockVector &dst, const BlockVector &src, const double size) const;
     void add_to(BlockVector &dst, const NodeBlockVector &src, const double size) const;
 
+    /** FlowMatrix::n_rows(), FlowMatrix::rows() and FlowMatrix::columns(). */
     unsigned int
     n_rows() const
     {
-      return row_starts.size() - 1;
+      return original.n_rows();
     }
-
-    /** Where the blocks of a row begin; those of the last row end at n_rows(). */
     const std::vector<unsigned int> &
     rows() const
     {
-      return row_starts;
+      return original.rows();
     }
-
-    /** The local node of each block's columns; from n_rows() on they are ghosts. Own ones
-     * are ascending in a row. */
     const std::vector<unsigned int> &
     columns() const
     {
-      return column_nodes;
+      return original.columns();
     }
 
     /** Diagonal entries of a block of A; the last is 0. */
@@ -85,15 +76,8 @@ namespace graupel
     }
 
   private:
-    // Which unknown of which local node a column of one of the four matrices is.
-    struct Column
-    {
-      unsigned int node, unknown;
-    };
-
+    const FlowMatrix                                          &original;
     std::shared_ptr<const dealii::Utilities::MPI::Partitioner> partitioner;
-    std::array<std::array<std::vector<Column>, 2>, 2>          of_column;
-    std::vector<unsigned int>                                  row_starts, column_nodes;
     // By block, each column of it by itself: three of the flux, and the pressure's.
     std::vector<float> flux_columns, pressure_columns;
   };

@@ -21,9 +21,9 @@ namespace graupel
   {
   public:
     /** Of @p exact and its copy @p system; all must outlive this object. */
-    ResidualMinimizer(const dealii::TrilinosWrappers::BlockSparseMatrix &exact,
-                      const NodeBlockMatrix                             &system,
-                      const BlockPreconditioner                         &preconditioner);
+    ResidualMinimizer(const FlowMatrix          &exact,
+                      const NodeBlockMatrix     &system,
+                      const BlockPreconditioner &preconditioner);
 
     /** The system is another from now on. */
     void forget();
@@ -36,6 +36,13 @@ namespace graupel
                        const double       tolerance,
                        const double       part,
                        const unsigned int maximum);
+
+    /** b - A x of the last solve(). */
+    const BlockVector &
+    last_residual() const
+    {
+      return exact_residual;
+    }
 
   private:
     // The residual of x becomes the one that is to be minimised; its size.
@@ -57,17 +64,17 @@ namespace graupel
     // first on and, in the end, with itself.
     void products(const NodeBlockVector &vector, const unsigned int first);
 
-    const dealii::TrilinosWrappers::BlockSparseMatrix &exact;
-    const NodeBlockMatrix                             &system;
-    const BlockPreconditioner                         &preconditioner;
-    std::vector<NodeBlockVector>                       basis, directions; // Q, Z
-    std::vector<std::vector<double>>                   triangle;          // R by column
-    unsigned int                                       n_basis = 0;
-    std::vector<double> share;   // of each basis vector that x lacks
-    std::vector<double> removed; // by project() and products()
-    NodeBlockVector     residual, sum;
-    double              scale = 0.; // of the residual
-    BlockVector         exact_residual;
+    const FlowMatrix                &exact;
+    const NodeBlockMatrix           &system;
+    const BlockPreconditioner       &preconditioner;
+    std::vector<NodeBlockVector>     basis, directions; // Q, Z
+    std::vector<std::vector<double>> triangle;          // R by column
+    unsigned int                     n_basis = 0;
+    std::vector<double>              share;   // of each basis vector that x lacks
+    std::vector<double>              removed; // by project() and products()
+    NodeBlockVector                  residual, sum;
+    double                           scale = 0.; // of the residual
+    BlockVector                      exact_residual;
   };
 } // namespace graupel
 
