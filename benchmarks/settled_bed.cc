@@ -1,12 +1,12 @@
 // Cost of the particles' substep on a bed from a file: time and memory, and the
 // forces and contacts that show what was computed.
 
+#include "bed_file.h"
+
 #include <graupel/dem/dem.h>
 #include <graupel/dem/particles/dem_error.h>
 
 #include <CLI/CLI.hpp>
-#include <boost/iostreams/filter/gzip.hpp>
-#include <boost/iostreams/filtering_stream.hpp>
 #include <sys/resource.h>
 
 #include <ctime>
@@ -31,13 +31,6 @@ namespace
     double       cell_size   = 3.2e-3;
     double       rayleigh    = 0.2;
     double       skin        = 0.25;
-  };
-
-  // Equal spheres [m].
-  struct Bed
-  {
-    std::vector<dealii::Point<3>> centers;
-    double                        radius = 0.;
   };
 
   // What the timed part cost, over all ranks.
@@ -77,79 +70,6 @@ namespace
     app.add_option("--skin", o.skin, "Skin of the neighbour list over the diameter");
     for (auto *option : app.get_options())
       option->capture_default_str();
-  }
-
-  Bed
-  read_bed(const std::string &name)
-  {
-    std::ifstream                       file(name, std::ios::binary);
-    boost::iostreams::filtering_istream text;
-    if (name.size() > 3 && name.substr(name.size() - 3) == ".gz")
-      text.push(boost::iostreams::gzip_decompressor());
-    text.push(file);
-
-    Bed    bed;
-    double x, y, z, radius;
-    while (text >> x >> y >> z >> radius)
-      {
-        if (bed.centers.empty())
-          bed.radius = radius;
-        if (std::abs(radius - bed.radius) > 1e-6 * bed.radius)
-          throw std::runtime_error(
-            name + ": this benchmark takes equal spheres; sphere " +
-            std::to_string(bed.centers.size() + 1) + " has another radius");
-        bed.centers.emplace_back(x, y, z);
-      }
-    if (!text.eof() || bed.centers.empty())
-      throw std::runtime_error(name + ": line " + std::to_string(bed.centers.size() + 1) +
-                               " is not \"x y z radius\", four numbers in metres");
-    return bed;
-  }
-
-  double
-  top_of(const Bed &bed)
-  {
-    double top = 0.;
-    for (const auto &center : bed.centers)
-      top = std::max(top, center[2] + bed.radius);
-    return top;
-  }
-
-  // The least lift of a copy at which it overlaps the bed nowhere: what lies in
-  // the lowest four diameters of the one meets the highest four of the other.
-  double
-  lift_of_a_copy(const Bed &bed)
-  {
-    const double                  d = 2. * bed.radius, reach = 4. * d, top = top_of(bed);
-    std::vector<dealii::Point<3>> low, high;
-    for (const auto &center : bed.centers)
-      {
-        if (center[2] < reach)
-          low.push_back(center);
-        if (center[2] > top - reach)
-          high.push_back(center);
-      }
-
-    double lift = 0.;
-    for (const auto &below : high)
-      for (const auto &above : low)
-        {
-          const double x = below[0] - above[0], y = below[1] - above[1];
-          const double rest = d * d - x * x - y * y;
-          if (rest > 0.)
-            lift = std::max(lift, below[2] - above[2] + std::sqrt(rest));
-        }
-    return lift;
-  }
-
-  void
-  stack(Bed &bed, const unsigned int copies)
-  {
-    const auto   once = bed.centers;
-    const double lift = copies > 1 ? lift_of_a_copy(bed) : 0.;
-    for (unsigned int copy = 1; copy < copies; ++copy)
-      for (const auto &center : once)
-        bed.centers.emplace_back(center[0], center[1], center[2] + copy * lift);
   }
 
   void

@@ -3,6 +3,9 @@
 #include <graupel/dem/particles/dem_error.h>
 #include <graupel/dem/vessel/mesh_planes.h>
 
+#include <boost/serialization/array.hpp>
+#include <boost/serialization/vector.hpp>
+
 #include <limits>
 #include <numeric>
 
@@ -21,6 +24,20 @@ namespace graupel
     constexpr double tolerated_imbalance = 0.1;
     // Of a particle in the division of the mesh among the ranks.
     constexpr unsigned int particle_weight = 1000;
+
+    // All that one rank hands over to another between two migrations.
+    struct HandOver
+    {
+      std::vector<ParticleStore::Passenger> passengers;
+      std::vector<LooseContact>             contacts;
+
+      template <class Archive>
+      void
+      serialize(Archive &archive, const unsigned int)
+      {
+        archive &passengers &contacts;
+      }
+    };
 
     std::vector<std::uint32_t>
     same_rows(const unsigned int n)
@@ -79,11 +96,12 @@ namespace graupel
     , shape(mesh, walls)
     , materials(input.materials(false, walls))
     , gravity(input.gravity())
-    , particle_store(mesh)
-    , halo(mesh.cylinder(),
-           2. * (1. + ParticleType::size_tolerance) * input.largest_radius() + skin,
-           input.walls.is_periodic(),
-           mesh.communicator())
+    , subdomains(mesh,
+                 2. * (1. + ParticleType::size_tolerance) * input.largest_radius() +
+                   (1. + 2. * VerletList::moving_part) * skin,
+                 input.walls.is_periodic())
+    , particle_store(mesh, subdomains)
+    , halo(subdomains, mesh.communicator())
     , list(skin, near_skin)
     , contacts(input.normal_law(),
                input.rolling_law(),
@@ -126,66 +144,77 @@ namespace graupel
     check_sizes(added);
     check_places(added);
     // The ghosts make room; the contacts with them find them again by their ids.
-    const auto         old_ids     = arrays.id;
     const unsigned int old_n_owned = arrays.n_owned;
+    loosen_contacts(arrays.id, same_rows(old_n_owned));
     arrays.resize(arrays.n_owned);
-    particle_store.insert(added, arrays);
+    std::vector<NewParticle> share;
+    std::int64_t             number = particle_store.next_number();
+    for (std::size_t k = 0; k < added.size(); ++k)
+      {
+        const std::int64_t id = added[k].id < 0 ? number : added[k].id;
+        number                = std::max(number, id + 1);
+        volume_by_type[added[k].type] += sphere_volume(added[k].radius);
+        ++number_by_type[added[k].type];
+        if (k % mpi::n_mpi_processes(communicator()) !=
+            mpi::this_mpi_process(communicator()))
+          continue;
+        share.push_back(added[k]);
+        share.back().id = id;
+      }
+    particle_store.insert(share, arrays);
     for (unsigned int row = old_n_owned; row < arrays.n_owned; ++row)
       arrays.mass[row] =
         materials.density[arrays.type[row]] * sphere_volume(arrays.body[row].radius);
-    for (const auto &particle : added)
-      {
-        volume_by_type[particle.type] += sphere_volume(particle.radius);
-        ++number_by_type[particle.type];
-      }
-    if (halo.is_needed())
-      {
-        auto loose = contacts.renumber(old_ids, same_rows(old_n_owned));
-        halo.rebuild(arrays);
-        contacts.add(arrays, std::move(loose));
-      }
-    list_is_valid = false;
+    find_ghosts();
   }
 
   void
   Dem::synchronise()
   {
-    CostSheet::Scope scope(costs, CostSheet::neighbor);
-    wrap();
-    const auto departed = departed_rows();
-    const auto old_ids  = arrays.id;
-    follow(old_ids, particle_store.migrate(arrays, contacts_of(), departed));
+    migrate({}, 0);
   }
 
   void
-  Dem::wrap()
+  Dem::migrate(const std::vector<std::uint32_t> &departed, const unsigned int n_departed)
+  {
+    CostSheet::Scope scope(costs, CostSheet::neighbor);
+    const bool       jumps   = bring_within(true);
+    const auto       old_ids = arrays.id;
+    auto moves = particle_store.migrate(arrays, contacts_of(), departed, n_departed);
+    if (jumps)
+      contacts.clear();
+    follow(old_ids, std::move(moves));
+  }
+
+  bool
+  Dem::bring_within(const bool all)
   {
     if (!input.walls.is_periodic())
-      return;
-    const double height  = mesh.cylinder().height;
-    const auto   outside = [&](const unsigned int i) {
-      const double z = arrays.body[i].position[2];
-      return z < 0. || z >= height;
-    };
-    unsigned int n_outside = 0;
-    for (unsigned int i = 0; i < arrays.n_owned; ++i)
-      n_outside += outside(i);
-    if (mpi::sum(n_outside, communicator()) == 0)
-      return;
-
-    // Pairs become neighbours through the end, or no more: find all partners anew.
-    auto loose = contacts.contacts_of(arrays, same_rows(arrays.n_owned));
-    contacts.clear();
-    for (unsigned int i = 0; i < arrays.n_owned; ++i)
-      if (outside(i))
-        arrays.body[i].position[2] += arrays.body[i].position[2] < 0. ? height : -height;
-    halo.rebuild(arrays);
-    contacts.add(arrays, std::move(loose));
-    list_is_valid = false;
+      return false;
+    std::vector<std::uint32_t> rows;
+    for (std::uint32_t i = 0; i < arrays.n_owned; ++i)
+      {
+        const auto &x      = arrays.body[i].position;
+        const auto  inside = subdomains.within(x);
+        if (inside[2] == x[2])
+          continue;
+        const auto *at = subdomains.surroundings(inside);
+        if (all || (at != nullptr && at->is_home))
+          rows.push_back(i);
+      }
+    if (rows.empty())
+      return false;
+    // Pairs become neighbours through the end, or no more: all partners are found anew.
+    const auto of_own = contacts.contacts_of(arrays, same_rows(arrays.n_owned));
+    loose.insert(loose.end(), of_own.begin(), of_own.end());
+    for (const auto i : rows)
+      arrays.body[i].position = subdomains.within(arrays.body[i].position);
+    halo.expect_jumps();
+    return true;
   }
 
   std::vector<std::uint32_t>
-  Dem::departed_rows()
+  Dem::departed_rows() const
   {
     std::vector<std::uint32_t> departed;
     if (!input.walls.is_open())
@@ -197,35 +226,7 @@ namespace graupel
             (z > mesh.cylinder().height && input.walls.top == "open"))
           departed.push_back(i);
       }
-    count_departed(departed);
     return departed;
-  }
-
-  void
-  Dem::count_departed(const std::vector<std::uint32_t> &departed)
-  {
-    std::vector<unsigned long> n_gone(number_by_type.size(), 0);
-    // What is left, in an order of sum that no number of ranks changes.
-    std::vector<ExactSum> gone(number_by_type.size(),
-                               ExactSum(sphere_volume(input.largest_radius())));
-    for (const auto i : departed)
-      {
-        ++n_gone[arrays.type[i]];
-        gone[arrays.type[i]].add(sphere_volume(arrays.body[i].radius));
-      }
-    mpi::sum(n_gone, communicator(), n_gone);
-    if (std::accumulate(n_gone.begin(), n_gone.end(), 0ul) == 0)
-      return;
-
-    const auto volume = ExactSum::totals(gone, communicator());
-    for (unsigned int type = 0; type < n_gone.size(); ++type)
-      {
-        departed_by_type[type] += n_gone[type];
-        number_by_type[type] -= n_gone[type];
-        departed_volume[type] += volume[type];
-        volume_by_type[type] =
-          number_by_type[type] > 0 ? volume_by_type[type] - volume[type] : 0.;
-      }
   }
 
   bool
@@ -241,9 +242,10 @@ namespace graupel
       return false;
     synchronise();
     const auto old_ids = arrays.id;
-    follow(old_ids,
-           particle_store.repartition(
-             arrays, contacts_of(), cell_weight(cell_share), particle_weight));
+    auto       moves   = particle_store.repartition(
+      arrays, contacts_of(), cell_weight(cell_share), particle_weight);
+    halo.reset();
+    follow(old_ids, std::move(moves));
     return true;
   }
 
@@ -253,9 +255,10 @@ namespace graupel
     CostSheet::Scope scope(costs, CostSheet::mesh);
     synchronise();
     const auto old_ids = arrays.id;
-    follow(old_ids,
-           particle_store.adapt(
-             arrays, contacts_of(), cell_weight(cell_share), particle_weight));
+    auto       moves   = particle_store.adapt(
+      arrays, contacts_of(), cell_weight(cell_share), particle_weight);
+    halo.reset();
+    follow(old_ids, std::move(moves));
   }
 
   unsigned int
@@ -275,11 +278,42 @@ namespace graupel
   void
   Dem::follow(const std::vector<std::int64_t> &old_ids, ParticleStore::Moves moves)
   {
-    auto loose = contacts.renumber(old_ids, moves.new_row);
+    loosen_contacts(old_ids, moves.new_row);
     loose.insert(loose.end(), moves.arrived.begin(), moves.arrived.end());
-    halo.rebuild(arrays);
-    contacts.add(arrays, std::move(loose));
     list.clear();
+    find_ghosts();
+  }
+
+  void
+  Dem::loosen_contacts(const std::vector<std::int64_t>  &old_ids,
+                       const std::vector<std::uint32_t> &new_row)
+  {
+    const auto added = contacts.renumber(old_ids, new_row);
+    loose.insert(loose.end(), added.begin(), added.end());
+  }
+
+  void
+  Dem::find_ghosts()
+  {
+    list_is_valid = false;
+    if (halo.is_needed())
+      {
+        const std::string problem = halo.select(arrays);
+        AssertThrow(problem.empty(), dealii::ExcMessage(problem));
+        // They are where they belong, or about to be brought there.
+        halo.leaving.clear();
+        halo.exchange(arrays, {});
+      }
+    place_ghosts();
+  }
+
+  void
+  Dem::place_ghosts()
+  {
+    loosen_contacts(arrays.id, same_rows(arrays.n_owned));
+    halo.place_ghosts(arrays);
+    contacts.add(arrays, std::move(loose));
+    loose.clear();
     list_is_valid = false;
   }
 
@@ -317,77 +351,154 @@ namespace graupel
     external_forces  = any(arrays.external_force);
     external_torques = any(arrays.external_torque);
     contacts.reset_wall_loads();
+    stopped.reset();
     const Clock begin = time;
-    for (unsigned int s = 0; s < n; ++s)
+    for (substep_number = 0; substep_number < n; ++substep_number)
       {
-        substep_by(dt, s == 0);
+        substep_by(dt);
         if (begin)
-          time = *begin + (s + 1 == n ? duration : (s + 1) * dt);
+          time =
+            *begin + (substep_number + 1 == n ? duration : (substep_number + 1) * dt);
+        // Neighbours wait for a rank that has stopped.
+        if (stopped && !halo.is_needed())
+          break;
       }
-    if (n > 0)
+    if (n > 0 && !stopped)
       {
         CostSheet::Scope scope(costs, CostSheet::contact);
         kick(arrays, integration(dt));
       }
-
     shape.follow(walls);
-    wall_loads = contacts.wall_loads(communicator());
-    for (auto &load : wall_loads)
-      {
-        load.force /= std::max(1u, n);
-        load.torque /= std::max(1u, n);
-      }
-    if (input.walls.is_open())
-      remove_departed();
-    // A failure in the last substep was not yet told to the other ranks.
-    throw_together(contacts.failure(arrays, walls), communicator());
+    add_up(n);
   }
 
   void
-  Dem::remove_departed()
+  Dem::add_up(const unsigned int n)
   {
-    unsigned int n_outside = 0;
-    for (unsigned int i = 0; i < arrays.n_owned; ++i)
+    // Whole numbers, all in one sum over the ranks: loads of the walls; what has left,
+    // by type, its number and its volume in an order of sum that no number of ranks
+    // changes; ranks that have stopped.
+    std::vector<std::int64_t> sums     = contacts.load_quanta();
+    const std::size_t         n_loads  = sums.size();
+    const std::size_t         n_types  = number_by_type.size();
+    const auto                departed = departed_rows();
+    std::vector<std::int64_t> n_gone(n_types, 0);
+    std::vector<ExactSum> gone(n_types, ExactSum(sphere_volume(input.largest_radius())));
+    for (const auto i : departed)
       {
-        const double z = arrays.body[i].position[2];
-        n_outside += z < 0. || z > mesh.cylinder().height;
+        ++n_gone[arrays.type[i]];
+        gone[arrays.type[i]].add(sphere_volume(arrays.body[i].radius));
       }
-    if (mpi::sum(n_outside, communicator()) > 0)
-      synchronise();
+    sums.insert(sums.end(), n_gone.begin(), n_gone.end());
+    for (const auto &volume : gone)
+      sums.push_back(volume.whole());
+    sums.push_back(stopped.has_value());
+    mpi::sum(sums, communicator(), sums);
+
+    if (sums.back() > 0)
+      throw_first_problem();
+    wall_loads       = contacts.wall_loads(sums, std::max(1u, n));
+    const auto begin = sums.begin() + n_loads;
+    const auto n_all = std::accumulate(begin, begin + n_types, std::int64_t(0));
+    if (n_all == 0)
+      return;
+    for (unsigned int type = 0; type < n_types; ++type)
+      {
+        const double volume = gone[type].value_of(begin[n_types + type]);
+        departed_by_type[type] += begin[type];
+        number_by_type[type] -= begin[type];
+        departed_volume[type] += volume;
+        volume_by_type[type] =
+          number_by_type[type] > 0 ? volume_by_type[type] - volume : 0.;
+      }
+    migrate(departed, n_all);
   }
 
   void
-  Dem::substep_by(const double dt, const bool first)
+  Dem::stop(const std::string &problem)
   {
-    // One number tells all ranks both how far particles go and whether some rank
-    // must stop.
-    double speed_square = infinity;
-    if (!contacts.failed())
+    if (!stopped)
+      stopped = Stop{substep_number, problem};
+  }
+
+  void
+  Dem::throw_first_problem() const
+  {
+    // Of the earliest substep, and of the lowest rank that had a problem in it.
+    const std::uint64_t n_ranks = mpi::n_mpi_processes(communicator());
+    const std::uint64_t mine =
+      stopped && !stopped->problem.empty()
+        ? stopped->substep * n_ranks + mpi::this_mpi_process(communicator())
+        : std::numeric_limits<std::uint64_t>::max();
+    const unsigned int culprit = mpi::min(mine, communicator()) % n_ranks;
+    throw DemError(mpi::broadcast(
+      communicator(), stopped ? stopped->problem : std::string(), culprit));
+  }
+
+  void
+  Dem::substep_by(const double dt)
+  {
+    take_over();
+    double speed_square = 0.;
+    if (!stopped)
       {
         CostSheet::Scope scope(costs, CostSheet::contact);
-        speed_square = first ? drift(arrays, integration(dt))
-                             : kick_and_drift(arrays, integration(dt));
+        speed_square = substep_number == 0 ? drift(arrays, integration(dt))
+                                           : kick_and_drift(arrays, integration(dt));
+        if (speed_square == infinity)
+          stop(infinite_position());
       }
-    {
-      CostSheet::Scope scope(costs, CostSheet::halo);
-      speed_square = mpi::max(speed_square, communicator());
-    }
-    if (speed_square == infinity)
-      throw_together(first_problem(), communicator());
-    const double moved = dt * std::sqrt(speed_square);
-    moved_since_list += moved;
-    moved_since_sort += moved;
-
+    moved_since_list += dt * std::sqrt(speed_square);
     move_walls(dt);
-    update_neighbors();
+    update_neighbors(dt, speed_square);
+    if (stopped)
+      return;
     CostSheet::Scope scope(costs, CostSheet::contact);
     contacts.sweep(arrays, list, walls, materials, dt);
     costs.particle_steps += arrays.n_owned;
     costs.contact_steps += contacts.n_contacts();
+    if (contacts.failed())
+      stop(contacts.failure(arrays, walls));
   }
 
   void
-  Dem::update_neighbors()
+  Dem::take_over()
+  {
+    if (halo.leaving.empty() && halo.giving().empty())
+      return;
+    CostSheet::Scope           scope(costs, CostSheet::halo);
+    std::vector<std::uint32_t> rows;
+    ByRank<std::vector<char>>  parts;
+    for (const auto &[rank, of_rank] : halo.leaving)
+      {
+        HandOver hand_over;
+        for (const auto row : of_rank)
+          hand_over.passengers.push_back({arrays.id[row], pack(arrays, row)});
+        hand_over.contacts = contacts.contacts_of(arrays, of_rank);
+        parts[rank]        = dealii::Utilities::pack(hand_over, false);
+        rows.insert(rows.end(), of_rank.begin(), of_rank.end());
+      }
+    std::sort(rows.begin(), rows.end());
+    const auto old_ids = arrays.id;
+    arrays.resize(arrays.n_owned);
+    const auto new_row = particle_store.release(arrays, rows);
+    loosen_contacts(old_ids, new_row);
+    list.renumber(new_row);
+    for (const auto &[rank, part] : halo.hand_over(parts))
+      {
+        auto       hand_over = dealii::Utilities::unpack<HandOver>(part, false);
+        const auto first     = arrays.n_owned;
+        particle_store.accept(arrays, hand_over.passengers);
+        for (unsigned int row = first; row < arrays.n_owned; ++row)
+          arrays.body[row].position = subdomains.within(arrays.body[row].position);
+        loose.insert(loose.end(), hand_over.contacts.begin(), hand_over.contacts.end());
+      }
+    ghosts_are_placed = false;
+    list_is_valid     = false;
+  }
+
+  void
+  Dem::update_neighbors(const double dt, const double speed_square)
   {
     // Rounding must not let a pair slip through.
     const double half_skin = 0.4999 * skin, half_near_skin = 0.4999 * near_skin;
@@ -395,16 +506,23 @@ namespace graupel
       {
         // The bound adds up the fastest particle of each substep.
         CostSheet::Scope scope(costs, CostSheet::neighbor);
-        moved_since_list =
-          mpi::max(list.largest_move(arrays), communicator()) + walls_moved_since_list;
-        list_is_valid = moved_since_list < 0.8 * half_skin;
+        moved_since_list = list.largest_move(arrays) + walls_moved_since_list;
+        list_is_valid    = moved_since_list < 0.8 * half_skin;
+      }
+    const bool   chooses = !list_is_valid;
+    const double fastest = halo.is_needed() ? meet_neighbors(speed_square) : speed_square;
+    if (stopped)
+      return;
+    ghosts_moved_since_list += dt * std::sqrt(fastest);
+    moved_since_sort += dt * std::sqrt(fastest);
+    if (list_is_valid && ghosts_moved_since_list >= half_skin)
+      {
+        CostSheet::Scope scope(costs, CostSheet::neighbor);
+        ghosts_moved_since_list = list.largest_move_of_ghosts(arrays);
+        list_is_valid           = ghosts_moved_since_list < 0.8 * half_skin;
       }
     if (!list_is_valid)
-      return list_neighbors();
-    {
-      CostSheet::Scope scope(costs, CostSheet::halo);
-      halo.refresh(arrays);
-    }
+      return list_neighbors(!chooses);
     if (moved_since_sort >= half_near_skin)
       {
         CostSheet::Scope scope(costs, CostSheet::neighbor);
@@ -413,37 +531,56 @@ namespace graupel
       }
   }
 
-  std::string
-  Dem::first_problem() const
+  double
+  Dem::meet_neighbors(const double speed_square)
   {
-    if (contacts.failed())
-      return contacts.failure(arrays, walls);
+    CostSheet::Scope scope(costs, CostSheet::halo);
+    if (!list_is_valid && !stopped)
+      {
+        if (bring_within(false))
+          {
+            contacts.clear();
+            ghosts_are_placed = false;
+          }
+        if (const auto problem = halo.select(arrays); !problem.empty())
+          stop(problem);
+      }
+    const auto news = halo.exchange(arrays, {speed_square, stopped.has_value()});
+    if (news.has_stopped)
+      stop({});
+    else if (halo.has_other_ghosts() || !ghosts_are_placed)
+      place_ghosts();
+    else
+      halo.refresh(arrays);
+    return news.speed_square;
+  }
+
+  std::string
+  Dem::infinite_position() const
+  {
     for (unsigned int i = 0; i < arrays.n_owned; ++i)
       if (!std::isfinite(arrays.body[i].position.norm_square()))
         return "particle " + std::to_string(arrays.id[i]) +
                " has no finite position any more; is the force from outside finite?";
-    return {};
+    return "a particle is too fast to be told its position; is the force from outside "
+           "finite?";
   }
 
   void
-  Dem::list_neighbors()
+  Dem::list_neighbors(const bool only_ghosts)
   {
-    wrap();
-    if (halo.is_needed())
-      {
-        CostSheet::Scope scope(costs, CostSheet::halo);
-        auto             loose = contacts.renumber(arrays.id, same_rows(arrays.n_owned));
-        halo.rebuild(arrays);
-        contacts.add(arrays, std::move(loose));
-      }
     CostSheet::Scope scope(costs, CostSheet::neighbor);
     contacts.sort();
-    list.build(arrays, walls, contacts.touching_rows(arrays.n_rows()));
+    list.build(arrays, walls, contacts.touching_rows(arrays.n_rows()), only_ghosts);
     contacts.watch_walls(list, walls);
-    moved_since_list       = mpi::max(list.largest_move(arrays), communicator());
-    moved_since_sort       = 0.;
-    walls_moved_since_list = 0.;
-    list_is_valid          = true;
+    if (!only_ghosts)
+      {
+        moved_since_list       = list.largest_move(arrays);
+        walls_moved_since_list = 0.;
+      }
+    ghosts_moved_since_list = 0.;
+    moved_since_sort        = 0.;
+    list_is_valid           = true;
     ++list_builds;
   }
 

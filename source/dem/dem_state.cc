@@ -69,7 +69,9 @@ namespace graupel
     arrays = {};
     contacts.clear();
     list.clear();
+    loose.clear();
     particle_store.clear();
+    halo.reset();
     const unsigned int n_types = materials.n_types();
     volume_by_type.assign(n_types, 0.);
     number_by_type.assign(n_types, 0);
@@ -102,35 +104,28 @@ namespace graupel
         id,
         [](const auto &particle, const std::int64_t i) { return particle.id < i; });
     };
-    std::vector<std::int64_t> own;
     for (unsigned int row = 0; row < arrays.n_owned; ++row)
       {
         const double mass = arrays.mass[row]; // of the present density
         unpack(of(arrays.id[row])->parcel, arrays, row);
         arrays.mass[row] = mass;
         recount(arrays.load[row], state, contacts.quanta());
-        own.push_back(arrays.id[row]);
       }
-    halo.rebuild(arrays);
-    // Those with walls know one particle only, which must be here, as must the wall.
-    std::sort(own.begin(), own.end());
-    std::vector<LooseContact> mine;
     for (LooseContact contact : state.contacts)
       {
         if (contact.second < 0)
           {
             const auto wall = number_here.at(wall_of(contact.second));
-            if (wall < 0 || !std::binary_search(own.begin(), own.end(), contact.first))
+            if (wall < 0)
               continue;
             contact.second = wall_id(wall, facet_of(contact.second));
           }
-        mine.push_back(contact);
+        loose.push_back(contact);
       }
-    contacts.add(arrays, std::move(mine));
+    find_ghosts();
     restore_counts(state);
     shape.follow(walls);
     use_packing_materials(state.packing_materials);
-    list_is_valid = false;
   }
 
   void

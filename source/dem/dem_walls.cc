@@ -22,13 +22,14 @@ namespace graupel
   Dem::start_clock(const double t)
   {
     time = t;
-    open_and_close_gates();
+    throw_together(open_and_close_gates(), communicator());
   }
 
   void
   Dem::move_walls(const double dt)
   {
-    open_and_close_gates();
+    if (const auto problem = open_and_close_gates(); !problem.empty())
+      stop(problem);
     const Cylinder &cylinder = mesh.cylinder();
     const double    size =
       std::hypot(0.5 * cylinder.diameter, cylinder.height) + 2. * input.largest_radius();
@@ -39,20 +40,19 @@ namespace graupel
           wall.move(dt, time);
           const double own = wall.approach_speed(size);
           if (!std::isfinite(own + wall.step.end.at({}).norm_square()))
-            throw DemError("the wall \"" + wall.name +
-                           "\" has no finite velocity at t = " + std::to_string(clock()) +
-                           " s (Walls/motion)");
+            return stop("the wall \"" + wall.name + "\" has no finite velocity at t = " +
+                        std::to_string(clock()) + " s (Walls/motion)");
           speed = std::max(speed, own);
         }
     walls_moved_since_list += dt * speed;
     moved_since_list += dt * speed;
   }
 
-  void
+  std::string
   Dem::open_and_close_gates()
   {
     std::string problem;
-    bool        some_wall_comes = false, some_wall_changes = false;
+    bool        some_wall_changes = false;
     for (unsigned int w = 0; w < walls.size(); ++w)
       if (walls[w].look_at(time))
         {
@@ -61,14 +61,12 @@ namespace graupel
           list.clear();
           list_is_valid     = false;
           some_wall_changes = true;
-          some_wall_comes   = some_wall_comes || walls[w].is_there;
           if (walls[w].is_there)
             problem += in_the_way_of(walls[w]);
         }
     if (some_wall_changes)
       shape.follow(walls);
-    if (some_wall_comes)
-      throw_together(problem, communicator());
+    return problem;
   }
 
   std::string

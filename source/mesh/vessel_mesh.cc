@@ -189,7 +189,10 @@ namespace graupel
                          &signals.post_distributed_refinement,
                          &signals.post_distributed_repartition,
                          &signals.post_distributed_load})
-      signal->connect([this]() { cells.clear(); });
+      signal->connect([this]() {
+        cells.clear();
+        edge.reset();
+      });
   }
 
   const std::vector<VesselMesh::CellIterator> &
@@ -388,10 +391,13 @@ namespace graupel
   double
   VesselMesh::smallest_edge() const
   {
-    double smallest = std::numeric_limits<double>::max();
-    for (const auto &cell : forest.active_cell_iterators())
-      if (cell->is_locally_owned())
-        smallest = std::min(smallest, cell->minimum_vertex_distance());
-    return dealii::Utilities::MPI::min(smallest, communicator());
+    if (!edge)
+      {
+        double smallest = std::numeric_limits<double>::max();
+        for (const auto &cell : owned_cells())
+          smallest = std::min(smallest, cell->minimum_vertex_distance());
+        edge = dealii::Utilities::MPI::min(smallest, communicator());
+      }
+    return *edge;
   }
 } // namespace graupel

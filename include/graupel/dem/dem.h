@@ -319,22 +319,41 @@ namespace graupel
 
   private:
     Integration                integration(const double dt) const;
-    void                       substep_by(const double dt, const bool first);
+    void                       substep_by(const double dt);
     void                       check_places(const std::vector<NewParticle> &added) const;
-    void                       update_neighbors();
-    std::string                first_problem() const;
-    void                       wrap();
-    void                       remove_departed();
-    std::vector<std::uint32_t> departed_rows();
     void                       check_sizes(const std::vector<NewParticle> &added) const;
-    void                       count_departed(const std::vector<std::uint32_t> &departed);
+    std::string                infinite_position() const;
+    std::vector<std::uint32_t> departed_rows() const;
     void                       restore_counts(const DemState &state);
-    void                       list_neighbors();
-    ParticleStore::ContactsOf  contacts_of() const;
-    unsigned int               cell_weight(const double cell_share) const;
+    // Of an advance() in @p n substeps, over all ranks; takes away what has left.
+    void add_up(const unsigned int n);
+    // Goes on without computing until the end of the advance(), so that no neighbour
+    // waits; there all ranks throw.
+    void              stop(const std::string &problem);
+    [[noreturn]] void throw_first_problem() const;
+
+    void migrate(const std::vector<std::uint32_t> &departed,
+                 const unsigned int                n_departed);
+    // Brings back what has left through a periodic end, all of it or what is at home
+    // here. False if there is nothing. Else all contacts are loose, too.
+    bool bring_within(const bool all);
+    void loosen_contacts(const std::vector<std::int64_t>  &old_ids,
+                         const std::vector<std::uint32_t> &new_row);
+    // All ranks choose and place their ghosts.
+    void find_ghosts();
+    void place_ghosts();
+    // Gives and takes particles, as was announced with the last bodies.
+    void take_over();
+    void update_neighbors(const double dt, const double speed_square);
+    // Sends and receives ghosts; returns the largest square of a drift here and there.
+    double                    meet_neighbors(const double speed_square);
+    void                      list_neighbors(const bool only_ghosts);
+    ParticleStore::ContactsOf contacts_of() const;
+    unsigned int              cell_weight(const double cell_share) const;
     void follow(const std::vector<std::int64_t> &old_ids, ParticleStore::Moves moves);
     void move_walls(const double dt);
-    void open_and_close_gates();
+    // Returns what is in the way of a wall that comes.
+    std::string                 open_and_close_gates();
     std::string                 in_the_way_of(const Wall &wall) const;
     std::vector<DemState::Wall> state_of_walls() const;
     // The number here of each wall of a state; -1 for one whose contacts end.
@@ -357,6 +376,7 @@ namespace graupel
     Materials            materials;
     dealii::Tensor<1, 3> gravity;
 
+    Subdomains     subdomains;
     ParticleStore  particle_store;
     ParticleArrays arrays;
     Halo           halo;
@@ -375,13 +395,29 @@ namespace graupel
     std::vector<unsigned long> number_by_type, departed_by_type;
     std::vector<double>        volume_by_type, departed_volume;
 
-    // Bounds on how far any particle of any rank has gone since the list was
-    // made, and since its pairs were sorted into near and far ones.
-    double       moved_since_list       = 0.;
-    double       moved_since_sort       = 0.;
-    double       walls_moved_since_list = 0.;
-    bool         list_is_valid          = false;
-    unsigned int list_builds            = 0;
+    // Contacts that wait for the rows of their ghosts.
+    std::vector<LooseContact> loose;
+    bool                      ghosts_are_placed = true;
+
+    // Bounds on how far any particle of this rank, walls included, and any ghost has gone
+    // since the list was made, and any of both since its pairs were sorted into near and
+    // far ones.
+    double       moved_since_list        = 0.;
+    double       ghosts_moved_since_list = 0.;
+    double       moved_since_sort        = 0.;
+    double       walls_moved_since_list  = 0.;
+    bool         list_is_valid           = false;
+    unsigned int list_builds             = 0;
+
+    // Why this rank has stopped in the present advance(), and in which substep; the
+    // problem is empty where a neighbour has it.
+    struct Stop
+    {
+      std::uint64_t substep;
+      std::string   problem;
+    };
+    std::optional<Stop> stopped;
+    unsigned int        substep_number = 0;
   };
 } // namespace graupel
 

@@ -11,6 +11,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 
 namespace graupel
@@ -153,7 +154,8 @@ namespace graupel
      */
     void adapt(const CellWeight &weight);
 
-    /** Bytes of each own active cell, in the order of owned_cells(); equally many each. */
+    /** Bytes of each own active cell, in the order of owned_cells(); equally many each.
+     */
     using CellBytes = std::vector<std::vector<char>>;
 
     /** Writes the refinement and @p bytes to files whose names begin with @p file.
@@ -171,7 +173,8 @@ namespace graupel
      */
     CellBytes load(const std::string &file, const std::vector<unsigned int> &partition);
 
-    /** The smallest distance between two vertices of one cell, over all ranks [m]. */
+    /** The smallest distance between two vertices of one cell, over all ranks [m]. Found
+     * once for a mesh, collectively. */
     double smallest_edge() const;
 
   private:
@@ -187,6 +190,7 @@ namespace graupel
     dealii::MappingQ<3>                             quadratic;
     int                                             initial_level = 0;
     mutable std::vector<CellIterator>               cells; // of owned_cells(), or none
+    mutable std::optional<double>                   edge;  // of smallest_edge(), or none
     std::shared_ptr<const MeshOutline>              contour;
   };
 } // namespace graupel

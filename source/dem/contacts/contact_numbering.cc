@@ -133,8 +133,9 @@ namespace graupel
         const auto i = own_row(contact.first);
         if (contact.second < 0)
           {
-            wall_lists[wall_of(contact.second) * n_types + particles.type[i]].add(
-              i, facet_of(contact.second), contact.springs);
+            if (i != no_row)
+              wall_lists[wall_of(contact.second) * n_types + particles.type[i]].add(
+                i, facet_of(contact.second), contact.springs);
             continue;
           }
         // Each own partner touches the nearest copy of the other; two own ones each

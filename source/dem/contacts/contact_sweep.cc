@@ -1,8 +1,6 @@
 #include <graupel/dem/contacts/contact_geometry.h>
 #include <graupel/dem/contacts/contact_sweep.h>
 
-#include <deal.II/base/mpi.h>
-
 namespace graupel
 {
   namespace
@@ -463,20 +461,27 @@ namespace graupel
     std::fill(loads.begin(), loads.end(), std::array<std::int64_t, 4>{});
   }
 
-  std::vector<WallLoad>
-  ContactSweep::wall_loads(MPI_Comm communicator) const
+  std::vector<std::int64_t>
+  ContactSweep::load_quanta() const
   {
-    std::vector<std::array<std::int64_t, 4>> all(loads.size());
-    const int                                ierr = MPI_Allreduce(
-      loads.data(), all.data(), 4 * loads.size(), MPI_INT64_T, MPI_SUM, communicator);
-    AssertThrowMPI(ierr);
+    std::vector<std::int64_t> all;
+    for (const auto &load : loads)
+      all.insert(all.end(), load.begin(), load.end());
+    return all;
+  }
 
+  std::vector<WallLoad>
+  ContactSweep::wall_loads(const std::vector<std::int64_t> &quanta,
+                           const unsigned int               n_sweeps) const
+  {
     std::vector<WallLoad> result(loads.size());
-    for (unsigned int w = 0; w < all.size(); ++w)
+    for (unsigned int w = 0; w < loads.size(); ++w)
       {
         for (unsigned int d = 0; d < 3; ++d)
-          result[w].force[d] = quantum.wall * static_cast<double>(all[w][d]);
-        result[w].torque = quantum.wall_torque * static_cast<double>(all[w][3]);
+          result[w].force[d] =
+            quantum.wall * static_cast<double>(quanta[4 * w + d]) / n_sweeps;
+        result[w].torque =
+          quantum.wall_torque * static_cast<double>(quanta[4 * w + 3]) / n_sweeps;
       }
     return result;
   }

@@ -11,10 +11,6 @@ namespace graupel
     // More bins than this many per particle cost more to walk than they save;
     // the box of a rank with a few stray particles could have millions.
     constexpr double bins_per_particle = 8.;
-
-    // Who has gone this part of the skin is listed anew along with those that
-    // must be, so that the next time is later.
-    constexpr double moving_part = 0.05;
   } // namespace
 
   VerletList::VerletList(const double skin, const double near_skin)
@@ -35,10 +31,11 @@ namespace graupel
   void
   VerletList::build(const ParticleArrays    &particles,
                     const std::vector<Wall> &walls,
-                    const TouchingRows      &touching)
+                    const TouchingRows      &touching,
+                    const bool               only_ghosts)
   {
     wall_rows.resize(walls.size());
-    choose_movers(particles);
+    choose_movers(particles, only_ghosts);
     drop_pairs_of_movers();
     n_listed = particles.n_owned;
     if (particles.n_owned == 0)
@@ -91,7 +88,7 @@ namespace graupel
   }
 
   void
-  VerletList::choose_movers(const ParticleArrays &particles)
+  VerletList::choose_movers(const ParticleArrays &particles, const bool only_ghosts)
   {
     const double limit = moving_part * moving_part * skin * skin;
     listed.resize(particles.n_rows());
@@ -99,7 +96,7 @@ namespace graupel
     for (unsigned int i = 0; i < particles.n_rows(); ++i)
       {
         const auto &x = particles.body[i].position;
-        if (i < n_listed && x.distance_square(listed[i]) < limit)
+        if (i < n_listed && (only_ghosts || x.distance_square(listed[i]) < limit))
           moves[i] = 0;
         else
           listed[i] = x;
@@ -107,15 +104,62 @@ namespace graupel
   }
 
   double
-  VerletList::largest_move(const ParticleArrays &particles) const
+  VerletList::largest_move(const ParticleArrays &particles,
+                           const unsigned int    begin,
+                           const unsigned int    end) const
   {
-    if (n_listed < particles.n_owned)
-      return std::numeric_limits<double>::infinity();
     double farthest = 0.;
-    for (unsigned int i = 0; i < particles.n_owned; ++i)
+    for (unsigned int i = begin; i < end; ++i)
       farthest =
         std::max(farthest, particles.body[i].position.distance_square(listed[i]));
     return std::sqrt(farthest);
+  }
+
+  double
+  VerletList::largest_move(const ParticleArrays &particles) const
+  {
+    return n_listed < particles.n_owned ? std::numeric_limits<double>::infinity()
+                                        : largest_move(particles, 0, particles.n_owned);
+  }
+
+  double
+  VerletList::largest_move_of_ghosts(const ParticleArrays &particles) const
+  {
+    return largest_move(particles, particles.n_owned, particles.n_rows());
+  }
+
+  void
+  VerletList::renumber(const std::vector<std::uint32_t> &new_row)
+  {
+    if (n_listed == 0)
+      return;
+    const auto number = [&](const std::uint32_t row) {
+      return row < new_row.size() ? new_row[row] : no_row;
+    };
+    for (auto *pairs : {&near, &far})
+      {
+        std::size_t kept = 0;
+        for (const auto pair : *pairs)
+          if (number(pair.first) != no_row && number(pair.second) != no_row)
+            (*pairs)[kept++] = {number(pair.first), number(pair.second)};
+        pairs->resize(kept);
+      }
+    for (auto &rows : wall_rows)
+      {
+        std::size_t kept = 0;
+        for (const auto row : rows)
+          if (number(row) != no_row)
+            rows[kept++] = number(row);
+        rows.resize(kept);
+        std::sort(rows.begin(), rows.end());
+      }
+    n_listed = 0;
+    for (std::uint32_t row = 0; row < new_row.size(); ++row)
+      if (new_row[row] != no_row)
+        {
+          listed[new_row[row]] = listed[row];
+          ++n_listed;
+        }
   }
 
   void

@@ -1,5 +1,5 @@
+#include <graupel/base/rank_messages.h>
 #include <graupel/dem/particles/dem_error.h>
-#include <graupel/dem/particles/parcel.h>
 #include <graupel/dem/particles/particle_store.h>
 
 #include <deal.II/grid/grid_tools.h>
@@ -8,6 +8,7 @@
 #include <boost/serialization/vector.hpp>
 
 #include <limits>
+#include <numeric>
 #include <sstream>
 
 namespace graupel
@@ -30,6 +31,11 @@ namespace graupel
 
     // How far a particle may go between two sorts of deal.II, in smallest edges.
     constexpr double longest_way = 0.5;
+
+    constexpr int fetch_tag   = 4104;
+    constexpr int deliver_tag = 4105;
+
+    using Coordinates = std::array<double, 3>;
 
     // All that one rank sends another.
     struct Delivery
@@ -59,8 +65,9 @@ namespace graupel
     }
   } // namespace
 
-  ParticleStore::ParticleStore(VesselMesh &mesh)
+  ParticleStore::ParticleStore(VesselMesh &mesh, Subdomains &subdomains)
     : mesh(mesh)
+    , subdomains(subdomains)
     , cache(mesh.triangulation(), mesh.mapping())
     , handler(mesh.triangulation(), mesh.mapping(), n_label_parts)
   {
@@ -106,83 +113,146 @@ namespace graupel
   }
 
   std::vector<unsigned int>
-  ParticleStore::place(const std::vector<Traveller> &travellers)
+  ParticleStore::find_owners(const std::vector<dealii::Point<3>> &points) const
   {
-    const unsigned int me     = mpi::this_mpi_process(communicator());
-    const unsigned int nobody = mpi::n_mpi_processes(communicator());
-    const double       reach  = 0.5 * mesh.smallest_edge();
-    const std::size_t  n      = travellers.size();
+    const unsigned int            me    = mpi::this_mpi_process(communicator());
+    const double                  reach = 0.5 * mesh.smallest_edge();
+    std::vector<unsigned int>     owners(points.size(), me);
+    std::vector<std::size_t>      away;
+    std::vector<dealii::Point<3>> places;
+    for (std::size_t k = 0; k < points.size(); ++k)
+      if (!locate(points[k], reach).found)
+        {
+          owners[k] = Subdomains::nobody;
+          away.push_back(k);
+          places.push_back(points[k]);
+        }
+    if (mpi::n_mpi_processes(communicator()) == 1)
+      return owners;
 
-    std::vector<Location>     locations(n);
-    std::vector<unsigned int> claims(n), owners(n);
-    for (std::size_t k = 0; k < n; ++k)
-      {
-        locations[k] = locate(travellers[k].position, reach);
-        claims[k]    = locations[k].found ? me : nobody;
-      }
-    mpi::min(claims, communicator(), owners);
-
-    for (std::size_t k = 0; k < n; ++k)
-      if (owners[k] == me)
-        handler.insert_particle(travellers[k].position,
-                                locations[k].reference,
-                                travellers[k].id,
-                                locations[k].cell,
-                                dealii::make_array_view(travellers[k].label));
+    ByRank<std::vector<Coordinates>> asked;
+    ByRank<std::vector<std::size_t>> asked_of;
+    const auto                       candidates = subdomains.ranks_at(places);
+    for (std::size_t k = 0; k < away.size(); ++k)
+      for (const unsigned int rank : candidates[k])
+        {
+          asked[rank].push_back({{places[k][0], places[k][1], places[k][2]}});
+          asked_of[rank].push_back(away[k]);
+        }
+    using Answer       = std::vector<unsigned char>;
+    const auto answers = ask_ranks<Answer, std::vector<Coordinates>>(
+      asked,
+      [&](const std::vector<Coordinates> &of_points) {
+        Answer found;
+        for (const Coordinates &x : of_points)
+          found.push_back(locate({x[0], x[1], x[2]}, reach).found);
+        return found;
+      },
+      communicator());
+    for (const auto &[rank, found] : answers)
+      for (std::size_t k = 0; k < found.size(); ++k)
+        if (found[k])
+          owners[asked_of[rank][k]] = std::min(owners[asked_of[rank][k]], rank);
     return owners;
+  }
+
+  void
+  ParticleStore::put_down(const Traveller &traveller)
+  {
+    const Location at = locate(traveller.position, 0.5 * mesh.smallest_edge());
+    handler.insert_particle(traveller.position,
+                            at.reference,
+                            traveller.id,
+                            at.cell,
+                            dealii::make_array_view(traveller.label));
   }
 
   void
   ParticleStore::insert(const std::vector<NewParticle> &added, ParticleArrays &p)
   {
-    const unsigned int me     = mpi::this_mpi_process(communicator());
-    const unsigned int nobody = mpi::n_mpi_processes(communicator());
-    const double       reach  = 0.5 * mesh.smallest_edge();
-
-    std::vector<Location>     locations;
-    std::vector<unsigned int> claims, owners(added.size());
+    const unsigned int            me = mpi::this_mpi_process(communicator());
+    std::vector<dealii::Point<3>> places;
     for (const auto &particle : added)
-      {
-        locations.push_back(locate(particle.position, reach));
-        claims.push_back(locations.back().found ? me : nobody);
-      }
-    mpi::min(claims, communicator(), owners);
+      places.push_back(particle.position);
+    const auto         owners = find_owners(places);
+    std::ostringstream text;
+    for (std::size_t k = 0; k < added.size() && text.tellp() == 0; ++k)
+      if (owners[k] == Subdomains::nobody)
+        text << "no cell of the mesh holds the point (" << places[k]
+             << ") m where a particle was to be inserted; it must lie in the cylinder";
+    throw_together(text.str(), communicator());
 
+    ByRank<std::vector<NewParticle>> parts;
     for (std::size_t k = 0; k < added.size(); ++k)
-      if (owners[k] == nobody)
+      parts[owners[k]].push_back(added[k]);
+    if (mpi::n_mpi_processes(communicator()) > 1)
+      parts = send_parts(parts, communicator());
+    for (const auto &[rank, part] : parts)
+      for (const NewParticle &particle : part)
         {
-          std::ostringstream text;
-          text << "no cell of the mesh holds the point (" << added[k].position
-               << ") m where a particle was to be inserted; it must lie in the "
-                  "cylinder";
-          throw DemError(text.str());
+          const unsigned int row = p.n_owned++;
+          p.resize(p.n_owned);
+          p.id[row]   = particle.id;
+          p.type[row] = particle.type;
+          p.body[row] = {
+            particle.position, particle.radius, particle.velocity, particle.spin, {}, {}};
+          put_down({static_cast<unsigned int>(particle.id),
+                    particle.position,
+                    {1. * me, 1. * row_of_label.size()}});
+          label_of_row.push_back(row_of_label.size());
+          row_of_label.push_back(row);
         }
+    std::int64_t number = next_id;
+    for (const NewParticle &particle : added)
+      number = std::max(number, particle.id + 1);
+    number_from(mpi::max(number, communicator()));
+    n_expected += mpi::sum(static_cast<unsigned int>(added.size()), communicator());
+  }
 
-    unsigned int row = p.n_owned;
-    p.n_owned += std::count(owners.begin(), owners.end(), me);
-    p.resize(p.n_owned);
-    for (std::size_t k = 0; k < added.size(); ++k)
+  std::vector<std::uint32_t>
+  ParticleStore::release(ParticleArrays &p, const std::vector<std::uint32_t> &rows)
+  {
+    std::vector<std::uint32_t> new_row(p.n_owned);
+    std::iota(new_row.begin(), new_row.end(), 0u);
+    // From the last one on, so that what fills a gap stays.
+    for (auto row = rows.rbegin(); row != rows.rend(); ++row)
       {
-        const unsigned int id = added[k].id < 0 ? next_id : added[k].id;
-        next_id               = std::max(next_id, id + 1);
-        if (owners[k] != me)
-          continue;
-        p.id[row]            = id;
-        p.type[row]          = added[k].type;
-        p.body[row].position = added[k].position;
-        p.body[row].radius   = added[k].radius;
-        p.body[row].velocity = added[k].velocity;
-        p.body[row].spin     = added[k].spin;
-
-        std::vector<double> label{1. * me, 1. * row};
-        handler.insert_particle(added[k].position,
-                                locations[k].reference,
-                                id,
-                                locations[k].cell,
-                                dealii::make_array_view(label));
-        ++row;
+        const std::uint32_t last = --p.n_owned;
+        if (label_of_row[*row] != no_row)
+          row_of_label[label_of_row[*row]] = no_row;
+        if (*row != last)
+          {
+            p.id[*row]              = p.id[last];
+            p.type[*row]            = p.type[last];
+            p.body[*row]            = p.body[last];
+            p.mass[*row]            = p.mass[last];
+            p.load[*row]            = p.load[last];
+            p.external_force[*row]  = p.external_force[last];
+            p.external_torque[*row] = p.external_torque[last];
+            label_of_row[*row]      = label_of_row[last];
+            if (label_of_row[*row] != no_row)
+              row_of_label[label_of_row[*row]] = *row;
+            new_row[last] = *row;
+          }
+        new_row[*row] = no_row;
+        label_of_row.pop_back();
       }
-    n_expected += added.size();
+    p.resize(p.n_owned);
+    return new_row;
+  }
+
+  void
+  ParticleStore::accept(ParticleArrays &p, const std::vector<Passenger> &passengers)
+  {
+    const unsigned int first = p.n_owned;
+    p.n_owned += passengers.size();
+    p.resize(p.n_owned);
+    for (std::size_t k = 0; k < passengers.size(); ++k)
+      {
+        p.id[first + k] = passengers[k].id;
+        unpack(passengers[k].parcel, p, first + k);
+      }
+    label_of_row.resize(p.n_owned, no_row);
   }
 
   void
@@ -190,20 +260,27 @@ namespace graupel
   {
     handler.clear_particles();
     cells.clear();
+    row_of_label.clear();
+    label_of_row.clear();
     n_expected = next_id = 0;
+    subdomains.update();
   }
 
   ParticleStore::Moves
   ParticleStore::migrate(ParticleArrays                   &particles,
                          const ContactsOf                 &contacts_of,
-                         const std::vector<std::uint32_t> &departed)
+                         const std::vector<std::uint32_t> &departed,
+                         const unsigned int                n_departed)
   {
     strays.clear();
+    n_expected -= n_departed;
     set_places(particles, departed);
     handler.sort_particles_into_subdomains_and_cells();
+    // It has counted all of them on the way.
+    if (handler.n_global_particles() == n_expected)
+      return collect(particles, contacts_of, true);
     bring_home_strays();
-    check_count();
-    return collect(particles, contacts_of);
+    return collect(particles, contacts_of, false);
   }
 
   ParticleStore::Moves
@@ -217,53 +294,79 @@ namespace graupel
       return cell_weight + particle_weight * handler.n_particles_in_cell(cell);
     });
     handler.unpack_after_coarsening_and_refinement();
+    subdomains.update();
     check_count();
-    return collect(particles, contacts_of);
+    return collect(particles, contacts_of, false);
   }
 
   void
   ParticleStore::set_places(const ParticleArrays             &particles,
                             const std::vector<std::uint32_t> &departed)
   {
+    const unsigned int         me = mpi::this_mpi_process(communicator());
     std::vector<unsigned char> gone(particles.n_owned, 0);
     for (const auto row : departed)
       gone[row] = 1;
-    n_expected -= mpi::sum(static_cast<unsigned int>(departed.size()), communicator());
 
     // deal.II loses, without a signal, a particle that has crossed more than one
-    // layer of cells on its way to another rank: those that went far are strays.
-    const double reach = mpi::n_mpi_processes(communicator()) > 1
-                           ? longest_way * mesh.smallest_edge()
-                           : std::numeric_limits<double>::infinity();
+    // layer of cells on its way to another rank: those that went far, and those that
+    // came here without the handler, are searched for.
+    const double           reach = mpi::n_mpi_processes(communicator()) > 1
+                                     ? longest_way * mesh.smallest_edge()
+                                     : std::numeric_limits<double>::infinity();
+    std::vector<Traveller> travellers;
+    const auto             sets_out = [&](const auto row) {
+      travellers.push_back({static_cast<unsigned int>(particles.id[row]),
+                            particles.body[row].position,
+                            {1. * me, 1. * row}});
+    };
     std::vector<dealii::Particles::ParticleIterator<3>> to_remove;
     for (auto particle = handler.begin(); particle != handler.end(); ++particle)
       {
-        const auto label = particle->get_properties();
-        const auto row   = static_cast<unsigned int>(label[holders_row]);
-        const auto place = particles.body[row].position;
-        const bool far   = place.distance(particle->get_location()) > reach;
-        if (far && !gone[row])
-          strays.push_back(
-            {particle->get_id(), place, std::vector<double>(label.begin(), label.end())});
-        if (far || gone[row])
-          to_remove.push_back(particle);
+        const auto          label = particle->get_properties();
+        const std::uint32_t row =
+          row_of_label[static_cast<std::uint32_t>(label[holders_row])];
+        if (row == no_row || gone[row])
+          {
+            to_remove.push_back(particle);
+            continue;
+          }
+        const auto place   = particles.body[row].position;
+        label[holders_row] = row;
+        if (place.distance(particle->get_location()) > reach)
+          {
+            to_remove.push_back(particle);
+            sets_out(row);
+          }
         else
           particle->set_location(place);
       }
-    // Collective, in that it counts anew.
-    handler.remove_particles(to_remove);
+    // They come in ascending order within a cell: the last of them first.
+    for (auto particle = to_remove.rbegin(); particle != to_remove.rend(); ++particle)
+      handler.remove_particle(*particle);
+
+    for (std::uint32_t row = 0; row < particles.n_owned; ++row)
+      if (label_of_row[row] == no_row && !gone[row])
+        sets_out(row);
+    for (const Traveller &traveller : travellers)
+      if (locate(traveller.position, 0.5 * mesh.smallest_edge()).found)
+        put_down(traveller);
+      else
+        strays.push_back(traveller);
   }
 
   ParticleStore::Moves
-  ParticleStore::collect(ParticleArrays &particles, const ContactsOf &contacts_of)
+  ParticleStore::collect(ParticleArrays   &particles,
+                         const ContactsOf &contacts_of,
+                         const bool        from_neighbors)
   {
     const unsigned int me = mpi::this_mpi_process(communicator());
     const unsigned int n  = handler.n_locally_owned_particles();
 
     // For each new row the old one, and what is to be fetched from which rank.
-    std::vector<std::uint32_t>                         old_row(n, no_row);
-    std::vector<std::int64_t>                          ids(n);
-    std::map<unsigned int, std::vector<std::uint32_t>> wanted, awaited;
+    std::vector<std::uint32_t>         old_row(n, no_row);
+    std::vector<std::int64_t>          ids(n);
+    ByRank<std::vector<std::uint32_t>> wanted, awaited;
     std::vector<std::pair<std::int64_t, dealii::Particles::ParticleIterator<3>>> by_id;
     cells.clear();
     std::uint32_t row = 0;
@@ -301,17 +404,26 @@ namespace graupel
           }
       }
 
-    std::map<unsigned int, Delivery> sent, received;
-    if (mpi::n_mpi_processes(communicator()) > 1)
+    const auto deliver = [&](const std::vector<std::uint32_t> &rows) {
+      Delivery delivery;
+      for (const auto leaving : rows)
+        delivery.parcels.push_back(pack(particles, leaving));
+      delivery.contacts = contacts_of(rows);
+      return delivery;
+    };
+    ByRank<Delivery> received;
+    if (from_neighbors)
       {
-        for (const auto &[rank, rows] : mpi::some_to_some(communicator(), wanted))
-          {
-            for (const auto leaving : rows)
-              sent[rank].parcels.push_back(pack(particles, leaving));
-            sent[rank].contacts = contacts_of(rows);
-          }
-        received = mpi::some_to_some(communicator(), sent);
+        const auto       neighbors = mesh.triangulation().ghost_owners();
+        ByRank<Delivery> sent;
+        for (const auto &[rank, rows] :
+             send_to_neighbors(neighbors, wanted, fetch_tag, communicator()))
+          sent[rank] = deliver(rows);
+        received = send_to_neighbors(neighbors, sent, deliver_tag, communicator());
       }
+    else if (mpi::n_mpi_processes(communicator()) > 1)
+      received =
+        ask_ranks<Delivery, std::vector<std::uint32_t>>(wanted, deliver, communicator());
 
     Moves moves;
     moves.new_row.assign(particles.n_owned, no_row);
@@ -327,6 +439,9 @@ namespace graupel
     rearrange(particles.external_force, old_row);
     rearrange(particles.external_torque, old_row);
     particles.n_owned = n;
+    row_of_label.resize(n);
+    std::iota(row_of_label.begin(), row_of_label.end(), 0u);
+    label_of_row = row_of_label;
     for (const auto &[rank, delivery] : received)
       {
         for (std::size_t k = 0; k < delivery.parcels.size(); ++k)
@@ -342,22 +457,27 @@ namespace graupel
   {
     // deal.II gives up a particle that lies, within rounding, on the face of two
     // cells, or that went further than the cells next to its own.
-    if (mpi::sum(static_cast<unsigned int>(strays.size()), communicator()) == 0)
-      return;
-
-    std::vector<Traveller> all;
-    for (const auto &of_rank : mpi::all_gather(communicator(), strays))
-      all.insert(all.end(), of_rank.begin(), of_rank.end());
-    const auto owners = place(all);
-    for (std::size_t k = 0; k < all.size(); ++k)
-      if (owners[k] == mpi::n_mpi_processes(communicator()))
-        {
-          std::ostringstream text;
-          text << "particle " << all[k].id << " was lost at (" << all[k].position
-               << ") m, outside of the cylinder; a smaller substep or a stiffer wall "
-                  "keeps it in";
-          throw DemError(text.str());
-        }
+    std::vector<dealii::Point<3>> places;
+    for (const Traveller &stray : strays)
+      places.push_back(stray.position);
+    const auto                     owners = find_owners(places);
+    ByRank<std::vector<Traveller>> parts;
+    std::ostringstream             text;
+    for (std::size_t k = 0; k < strays.size() && text.tellp() == 0; ++k)
+      if (owners[k] == Subdomains::nobody)
+        text << "particle " << strays[k].id << " was lost at (" << places[k]
+             << ") m, outside of the cylinder; a smaller substep or a stiffer wall "
+                "keeps it in";
+      else
+        parts[owners[k]].push_back(strays[k]);
+    throw_together(text.str(), communicator());
+    strays.clear();
+    if (mpi::n_mpi_processes(communicator()) > 1)
+      parts = send_parts(parts, communicator());
+    for (const auto &[rank, part] : parts)
+      for (const Traveller &traveller : part)
+        put_down(traveller);
+    check_count();
   }
 
   void
@@ -365,25 +485,31 @@ namespace graupel
   {
     // It forgets to count what was inserted or removed one by one.
     handler.update_cached_numbers();
-    if (mpi::sum(static_cast<unsigned int>(handler.n_locally_owned_particles()),
-                 communicator()) == n_expected)
+    if (handler.n_global_particles() == n_expected)
       return;
 
-    std::vector<unsigned int> ids;
+    // Each rank counts the copies of an even share of the ids.
+    const unsigned int n_ranks = mpi::n_mpi_processes(communicator());
+    const unsigned int share   = next_id / n_ranks + 1;
+    const unsigned int first   = share * mpi::this_mpi_process(communicator());
+    ByRank<std::vector<unsigned int>> ids;
     for (const auto &particle : handler)
-      ids.push_back(particle.get_id());
-    std::vector<unsigned int> copies(next_id, 0);
-    for (const auto &of_rank : mpi::all_gather(communicator(), ids))
+      ids[particle.get_id() / share].push_back(particle.get_id());
+    std::vector<unsigned char> copies(std::min(share, next_id - std::min(first, next_id)),
+                                      0);
+    for (const auto &[rank, of_rank] : send_parts(ids, communicator()))
       for (const auto id : of_rank)
-        ++copies[id];
-    const auto n_lost    = std::count(copies.begin(), copies.end(), 0u);
-    const auto n_doubled = std::count_if(
-      copies.begin(), copies.end(), [](const unsigned int n) { return n > 1; });
+        copies[id - first] = std::min(2, copies[id - first] + 1);
+    const auto n_with = [&](const unsigned char n) {
+      return mpi::sum(
+        static_cast<unsigned int>(std::count(copies.begin(), copies.end(), n)),
+        communicator());
+    };
     throw DemError("particles were lost or doubled on their way between ranks: of " +
-                   std::to_string(next_id) + " ever inserted " + std::to_string(n_lost) +
-                   " are missing and " + std::to_string(n_doubled) +
-                   " are double, where " + std::to_string(n_expected) +
-                   " should be in the vessel");
+                   std::to_string(next_id) + " ever inserted " +
+                   std::to_string(n_with(0)) + " are missing and " +
+                   std::to_string(n_with(2)) + " are double, where " +
+                   std::to_string(n_expected) + " should be in the vessel");
   }
 
   void

@@ -38,9 +38,8 @@ namespace graupel
     });
     // It makes room for the new cells when it is emptied, not when the mesh changes.
     handler.clear_particles();
+    subdomains.update();
     bring_home_strays();
-    strays.clear();
-    check_count();
-    return collect(particles, contacts_of);
+    return collect(particles, contacts_of, false);
   }
 } // namespace graupel

@@ -131,8 +131,8 @@ namespace graupel
                                        const std::vector<std::uint32_t> &new_row);
 
     /**
-     * Adds contacts of own particles; rows of ghosts must be there. What is given
-     * twice counts once.
+     * Adds contacts of own particles, and leaves out others; rows of ghosts must be
+     * there. What is given twice counts once.
      */
     void add(const ParticleArrays &particles, std::vector<LooseContact> contacts);
 
@@ -188,14 +188,17 @@ namespace graupel
       return quantum;
     }
 
-    /** Sets the sums of wall_load() to zero. */
+    /** Sets the sums of load_quanta() to zero. */
     void reset_wall_loads();
 
-    /**
-     * Force on each wall [N] and torque about its axis [N m], summed over all sweeps
-     * since the last reset and over all ranks of @p communicator. Collective.
-     */
-    std::vector<WallLoad> wall_loads(MPI_Comm communicator) const;
+    /** Force and torque on each wall in their quanta, four numbers a wall, of this rank's
+     * particles, summed over all sweeps since the last reset. */
+    std::vector<std::int64_t> load_quanta() const;
+
+    /** Force on each wall [N] and torque about its axis [N m], mean of @p n_sweeps
+     * sweeps, from the sum of all ranks' load_quanta(), which @p quanta begin with. */
+    std::vector<WallLoad> wall_loads(const std::vector<std::int64_t> &quanta,
+                                     const unsigned int               n_sweeps) const;
 
     /** Forgets all contacts with a wall that has gone. */
     void leave_wall(const unsigned int wall);

@@ -47,20 +47,31 @@ namespace graupel
   class VerletList
   {
   public:
+    /** Who has gone this part of the skin is listed anew along with those that must be,
+     * so that the next time is later [-]. */
+    static constexpr double moving_part = 0.05;
+
     /** @p skin and @p near_skin: distances added to that of touching [m]. */
     VerletList(const double skin, const double near_skin);
 
     /** Forgets everything: rows have new numbers. */
     void clear();
 
+    /** Some own rows have gone, and all others are listed: @p new_row of each old own
+     * row, or no_row. Ghosts are forgotten. */
+    void                           renumber(const std::vector<std::uint32_t> &new_row);
+    static constexpr std::uint32_t no_row = -1;
+
     /**
      * Lists all particles anew that are farther than a small part of the skin from
-     * their listed place or are not listed yet, and all ghosts; sets all near
-     * pairs. @p touching: the contacts, which stay out of the list.
+     * their listed place or are not listed yet, and all ghosts; with @p only_ghosts of
+     * the own ones only those that are not listed yet. Sets all near pairs.
+     * @p touching: the contacts, which stay out of the list.
      */
     void build(const ParticleArrays    &particles,
                const std::vector<Wall> &walls,
-               const TouchingRows      &touching);
+               const TouchingRows      &touching,
+               const bool               only_ghosts = false);
 
     /** Sorts the pairs into near and far ones by their present distance. */
     void sort_by_distance(const ParticleArrays &particles);
@@ -68,6 +79,9 @@ namespace graupel
     /** Largest distance of an own particle from its listed place [m]; infinite
      * if one is not listed. */
     double largest_move(const ParticleArrays &particles) const;
+
+    /** The same of the ghosts. */
+    double largest_move_of_ghosts(const ParticleArrays &particles) const;
 
     /** Pairs that can touch soon. */
     std::vector<NeighborPair> near;
@@ -77,8 +91,11 @@ namespace graupel
     std::vector<std::vector<std::uint32_t>> wall_rows;
 
   private:
-    void choose_movers(const ParticleArrays &particles);
-    void drop_pairs_of_movers();
+    void   choose_movers(const ParticleArrays &particles, const bool only_ghosts);
+    double largest_move(const ParticleArrays &particles,
+                        const unsigned int    begin,
+                        const unsigned int    end) const;
+    void   drop_pairs_of_movers();
     void find_wall_rows(const ParticleArrays &particles, const std::vector<Wall> &walls);
     void sort_near_if_needed();
     void sort_into_bins(const ParticleArrays &particles, const double bin_size);

@@ -40,6 +40,20 @@ namespace graupel
       quanta += other.quanta;
     }
 
+    /** The sum in quanta, which add up over ranks as whole numbers. */
+    std::int64_t
+    whole() const
+    {
+      return quanta;
+    }
+
+    /** What so many quanta are. */
+    double
+    value_of(const std::int64_t number) const
+    {
+      return quantum * static_cast<double>(number);
+    }
+
     /** The sum over all ranks of @p communicator. Collective. */
     double
     total(MPI_Comm communicator) const
@@ -60,7 +74,7 @@ namespace graupel
 
       std::vector<double> results;
       for (std::size_t k = 0; k < sums.size(); ++k)
-        results.push_back(sums[k].quantum * static_cast<double>(quanta[k]));
+        results.push_back(sums[k].value_of(quanta[k]));
       return results;
     }
 

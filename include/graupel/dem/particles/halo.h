@@ -1,89 +1,155 @@
 #ifndef graupel_dem_particles_halo_h
 #define graupel_dem_particles_halo_h
 
+#include <graupel/base/rank_messages.h>
 #include <graupel/dem/particles/particle_arrays.h>
-#include <graupel/mesh/cylinder.h>
+#include <graupel/dem/particles/subdomains.h>
 
+#include <string>
 #include <vector>
 
 namespace graupel
 {
   /**
-   * Copies of other ranks' particles near this rank's own, chosen by distance
-   * and not by cells: on a locally refined mesh one layer of ghost cells can be
-   * thinner than a particle.
+   * Copies of other ranks' particles near this rank's own (ghosts), chosen by distance
+   * and not by cells: on a locally refined mesh one layer of ghost cells can be thinner
+   * than a particle. On one rank without periodic ends nothing is done.
    *
-   * Every rank publishes which bins (cubes of the size of the reach) its
-   * particles occupy; a particle goes to every rank that occupies its bin or
-   * one next to it. On one rank without periodic ends nothing is done.
+   * A particle goes to every rank whose cells touch its bin or one next to it (see
+   * Subdomains). Which those are is the sender's choice alone, made anew by select() when
+   * its particles have gone far; the receiver learns it from the next message. So ranks
+   * wait for their neighbours only, and with every exchange() each tells its neighbours
+   * how fast its particles are and whether it has met with an error.
    */
   class Halo
   {
   public:
-    /**
-     * @p reach: the distance within which a rank must see all particles [m]. With
-     * @p periodic ends, particles near one end are copied beyond the other as well,
-     * a height away, also for their own rank.
-     */
-    Halo(const Cylinder &cylinder,
-         const double    reach,
-         const bool      periodic,
-         MPI_Comm        communicator);
-
-    /** Whether there can be ghosts at all. */
-    bool
-    is_needed() const
-    {
-      return n_ranks > 1 || shifts.size() > 1;
-    }
+    /** @p subdomains must outlive the halo. */
+    Halo(const Subdomains &subdomains, MPI_Comm communicator);
     ~Halo();
 
     Halo(const Halo &)            = delete;
     Halo &operator=(const Halo &) = delete;
 
-    /**
-     * Decides anew who sends what, and replaces the ghost rows of @p particles,
-     * complete with positions and velocities. Collective.
-     */
-    void rebuild(ParticleArrays &particles);
-
-    /**
-     * Brings the bodies of the ghost rows up to date. Collective among neighbours.
-     */
-    void refresh(ParticleArrays &particles);
-
-  private:
-    struct Neighbor
+    /** Whether there can be ghosts at all. */
+    bool
+    is_needed() const
     {
-      int rank;
-      // Number of the shift that the receiver's copies have.
-      unsigned int              shift;
-      std::vector<unsigned int> rows;
-      unsigned int              first_ghost;
-      unsigned int              n_ghosts;
-      std::vector<double>       outgoing;
-      std::vector<double>       incoming;
+      return subdomains.is_needed();
+    }
+
+    /** Forgets all neighbours and takes those of subdomains that have changed. */
+    void reset();
+
+    /**
+     * Chooses anew which own rows go where, for the next exchange(). Those that have left
+     * the own bins and are to be handed over go into leaving(). Returns the problem with
+     * a particle that is nowhere near own cells, or nothing.
+     */
+    std::string select(const ParticleArrays &particles);
+
+    /** Makes the next exchange() tell all receivers of their ghosts anew: a particle has
+     * jumped from one end of the vessel to the other. */
+    void
+    expect_jumps()
+    {
+      all_changed = true;
+    }
+
+    /** Own rows by the rank that they are to be handed over to, as of the last select().
+     * Empty when they have been. */
+    ByRank<std::vector<std::uint32_t>> leaving;
+
+    /** What a rank tells its neighbours beside the bodies. */
+    struct News
+    {
+      /** Largest square of a drift [m^2/s^2]. */
+      double speed_square = 0.;
+      /** An error has been met with, here or by a neighbour. */
+      bool has_stopped = false;
     };
 
-    std::vector<unsigned char> occupied_bins(const ParticleArrays &particles) const;
-    unsigned int               bin(const dealii::Point<3> &x) const;
-    std::vector<unsigned char> bins_near(const unsigned char *occupied) const;
-    void                       choose_rows(const ParticleArrays &particles);
-    void                       exchange_identities(ParticleArrays &particles);
-    void                       start_requests();
-    void                       free_requests();
+    /**
+     * Sends own bodies as chosen and receives those of the ghosts. Returns the news of
+     * all senders together. Collective among neighbours.
+     */
+    News exchange(const ParticleArrays &particles, const News &own);
 
-    MPI_Comm           communicator;
-    const unsigned int n_ranks;
-    dealii::Point<3>   corner;
-    double             height;
-    double             bin_size;
-    // Added to the height of what is sent [m]: 0, and with periodic ends up and
-    // down by the height of the vessel.
-    std::vector<double>         shifts;
-    std::array<unsigned int, 3> n_bins;
-    std::vector<Neighbor>       neighbors;
-    std::vector<MPI_Request>    requests;
+    /** Whether the last exchange() has brought other ghosts than the one before. */
+    bool
+    has_other_ghosts() const
+    {
+      return ghosts_changed;
+    }
+
+    /** Ranks that will hand over particles, as of the last exchange(). */
+    const std::set<unsigned int> &
+    giving() const
+    {
+      return givers;
+    }
+
+    /** Brings the bodies of the ghost rows up to date with the last exchange(). */
+    void refresh(ParticleArrays &particles) const;
+
+    /** Replaces the ghost rows by those of the last exchange(). */
+    void place_ghosts(ParticleArrays &particles);
+
+    /**
+     * Sends what belongs to the rows that leave, by rank, and receives what others give.
+     * Collective among those that announced it in the last exchange().
+     */
+    ByRank<std::vector<char>> hand_over(const ByRank<std::vector<char>> &parts);
+
+  private:
+    // Begin of a message, before the bodies.
+    struct Header
+    {
+      double n_new; // ghosts of a new choice, which follow by themselves; or no_news
+      double n_leaving;
+      double speed_square;
+      double has_stopped;
+    };
+    struct Outgoing
+    {
+      Subdomains::Neighbor       to;
+      std::vector<std::uint32_t> rows;
+      std::vector<std::int64_t>  ids; // of the rows
+      bool                       is_new = false;
+      std::vector<double>        buffer, description;
+      MPI_Request                request = MPI_REQUEST_NULL;
+    };
+    struct Incoming
+    {
+      Subdomains::Neighbor       from;
+      std::vector<std::int64_t>  ids;
+      std::vector<unsigned char> types;
+      unsigned int               first_ghost = 0;
+      std::vector<double>        buffer, description;
+      MPI_Request                request = MPI_REQUEST_NULL;
+    };
+
+    void      prepare(Outgoing &to) const;
+    void      prepare(Incoming &from) const;
+    void      free_requests();
+    void      fill(Outgoing             &to,
+                   const ParticleArrays &particles,
+                   const News           &own,
+                   const bool            is_first) const;
+    void      describe(Outgoing &to, const ParticleArrays &particles) const;
+    void      take_description(Incoming &from) const;
+    void      exchange_descriptions(const ParticleArrays &particles);
+    Outgoing &outgoing_to(const Subdomains::Neighbor &neighbor);
+    Header    header_of(const Incoming &from) const;
+    int       tag(const int base, const unsigned int shift) const;
+
+    const Subdomains      &subdomains;
+    const MPI_Comm         communicator;
+    std::vector<Outgoing>  outgoing;
+    std::vector<Incoming>  incoming;
+    std::set<unsigned int> givers;
+    bool                   all_changed    = false;
+    bool                   ghosts_changed = false;
   };
 } // namespace graupel
 

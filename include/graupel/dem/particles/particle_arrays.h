@@ -98,6 +98,13 @@ namespace graupel
     unsigned char type = 0;
     /** Its number, which no particle has had; negative: the next free one. */
     std::int64_t id = -1;
+
+    template <class Archive>
+    void
+    serialize(Archive &archive, const unsigned int)
+    {
+      archive &position &radius &velocity &spin &type &id;
+    }
   };
 
   /** Volume of a sphere [m^3]. */

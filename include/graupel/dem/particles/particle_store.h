@@ -2,7 +2,8 @@
 #define graupel_dem_particles_particle_store_h
 
 #include <graupel/dem/particles/loose_contact.h>
-#include <graupel/dem/particles/particle_arrays.h>
+#include <graupel/dem/particles/parcel.h>
+#include <graupel/dem/particles/subdomains.h>
 #include <graupel/mesh/vessel_mesh.h>
 
 #include <deal.II/grid/grid_tools_cache.h>
@@ -23,6 +24,9 @@ namespace graupel
    * what it does not have: type, body, forces and the springs of the contacts. So
    * whatever moves particles between ranks (migration, refinement, a new
    * partition) takes everything along.
+   *
+   * Between two migrations rows may go from rank to rank without the handler, by
+   * release() and accept(); the next migration finds their cells.
    */
   class ParticleStore
   {
@@ -33,19 +37,46 @@ namespace graupel
                          const unsigned int                   first_row,
                          const std::vector<dealii::Point<3>> &reference_locations)>;
 
-    /** @p mesh must outlive the store. */
-    explicit ParticleStore(VesselMesh &mesh);
+    /** @p mesh and its @p subdomains must outlive the store, which brings these up to
+     * date where it changes the mesh. */
+    ParticleStore(VesselMesh &mesh, Subdomains &subdomains);
 
     /**
-     * Adds particles, without an id with the next free one, behind the own rows of
-     * @p particles, which must hold no ghosts. The same call on every rank,
-     * collective; each goes to the lowest rank that owns a cell around its center.
-     * Mass is left to the caller. Throws DemError for a point outside the mesh.
+     * Adds particles with ids that no other has, behind the own rows of @p particles,
+     * which must hold no ghosts. Each is given by one rank, any one, and goes to one that
+     * owns a cell around its center. Mass is left to the caller. Throws DemError, on all
+     * ranks, for a point outside the mesh. Collective.
      */
     void insert(const std::vector<NewParticle> &added, ParticleArrays &particles);
 
     /** Forgets all particles, on a mesh that may have changed. Collective. */
     void clear();
+
+    /** All of a particle that changes its rank between two migrations. */
+    struct Passenger
+    {
+      std::int64_t id = 0;
+      Parcel       parcel;
+
+      template <class Archive>
+      void
+      serialize(Archive &archive, const unsigned int)
+      {
+        archive &id &parcel;
+      }
+    };
+
+    /**
+     * Takes @p rows, own ones in ascending order, out of @p particles, which must hold no
+     * ghosts; the last rows fill the gaps. Returns for each old own row its new one, or
+     * no_row.
+     */
+    std::vector<std::uint32_t> release(ParticleArrays                   &particles,
+                                       const std::vector<std::uint32_t> &rows);
+
+    /** Puts @p passengers behind the own rows of @p particles, which must hold no ghosts.
+     */
+    void accept(ParticleArrays &particles, const std::vector<Passenger> &passengers);
 
     /** The contacts of some own rows, given to a migration to go with them. */
     using ContactsOf =
@@ -63,15 +94,17 @@ namespace graupel
 
     /**
      * Finds the cell and rank of every particle and moves it there; removes first
-     * those that are listed in @p departed, own rows. Afterwards the arrays hold
+     * those that are listed in @p departed, own rows, @p n_departed on all ranks.
+     * Afterwards the arrays hold
      * own rows only, those of one cell contiguous. Collective. Throws DemError,
      * with number, last place and reason, for a lost particle. What deal.II gives
      * up (a particle exactly on a face; a long way within one migration) is
-     * searched for in all cells of all ranks.
+     * searched for by all ranks that have cells near it.
      */
     Moves migrate(ParticleArrays                   &particles,
                   const ContactsOf                 &contacts_of,
-                  const std::vector<std::uint32_t> &departed);
+                  const std::vector<std::uint32_t> &departed,
+                  const unsigned int                n_departed);
 
     /**
      * Divides the mesh among the ranks anew, so that the sum of @p cell_weight +
@@ -153,14 +186,20 @@ namespace graupel
 
     // Looks in own cells within reach of the point.
     Location locate(const dealii::Point<3> &point, const double reach) const;
-    // Puts each traveller, the same on all ranks, into a cell of the lowest rank
-    // that has one for it; gives that rank, or the number of ranks for nowhere.
-    // Collective.
-    std::vector<unsigned int> place(const std::vector<Traveller> &travellers);
+    // For each point this rank if it has a cell for it, else the lowest rank that has,
+    // or nobody. Collective.
+    std::vector<unsigned int> find_owners(
+      const std::vector<dealii::Point<3>> &points) const;
+    // Puts a traveller into an own cell.
+    void put_down(const Traveller &traveller);
 
-    void  set_places(const ParticleArrays             &particles,
-                     const std::vector<std::uint32_t> &departed);
-    Moves collect(ParticleArrays &particles, const ContactsOf &contacts_of);
+    void set_places(const ParticleArrays             &particles,
+                    const std::vector<std::uint32_t> &departed);
+    // With @p from_neighbors nothing has come from further than the cells next to own
+    // ones.
+    Moves collect(ParticleArrays   &particles,
+                  const ContactsOf &contacts_of,
+                  const bool        from_neighbors);
     void  bring_home_strays();
     void  check_count();
 
@@ -172,6 +211,7 @@ namespace graupel
     };
 
     VesselMesh                           &mesh;
+    Subdomains                           &subdomains;
     dealii::GridTools::Cache<3>           cache;
     dealii::Particles::ParticleHandler<3> handler;
     std::vector<CellRows>                 cells;
@@ -179,6 +219,10 @@ namespace graupel
     // What all ranks together must hold, and the next id to give away.
     unsigned int n_expected = 0;
     unsigned int next_id    = 0;
+
+    // The row of each particle of the handler, by the number in its label, which is the
+    // row that it had when it came into the handler; and the other way round.
+    std::vector<std::uint32_t> row_of_label, label_of_row;
 
     // What deal.II gave up in the present migration.
     std::vector<Traveller> strays;
