@@ -96,12 +96,13 @@ namespace graupel
     , shape(mesh, walls)
     , materials(input.materials(false, walls))
     , gravity(input.gravity())
+    , period(input.walls.is_periodic() ? Period(mesh.cylinder().height) : Period())
     , subdomains(mesh,
                  2. * (1. + ParticleType::size_tolerance) * input.largest_radius() +
                    (1. + 2. * VerletList::moving_part) * skin,
-                 input.walls.is_periodic())
+                 period)
     , particle_store(mesh, subdomains)
-    , halo(subdomains, mesh.communicator())
+    , halo(subdomains, period, mesh.communicator())
     , list(skin, near_skin)
     , contacts(input.normal_law(),
                input.rolling_law(),
@@ -159,7 +160,8 @@ namespace graupel
             mpi::this_mpi_process(communicator()))
           continue;
         share.push_back(added[k]);
-        share.back().id = id;
+        share.back().id          = id;
+        share.back().position[2] = period.rounded(added[k].position[2]);
       }
     particle_store.insert(share, arrays);
     for (unsigned int row = old_n_owned; row < arrays.n_owned; ++row)
@@ -189,14 +191,14 @@ namespace graupel
   bool
   Dem::bring_within(const bool all)
   {
-    if (!input.walls.is_periodic())
+    if (!period.exists())
       return false;
     std::vector<std::uint32_t> rows;
     for (std::uint32_t i = 0; i < arrays.n_owned; ++i)
       {
-        const auto &x      = arrays.body[i].position;
-        const auto  inside = subdomains.within(x);
-        if (inside[2] == x[2])
+        auto inside = arrays.body[i].position;
+        inside[2]   = period.within(inside[2]);
+        if (inside[2] == arrays.body[i].position[2])
           continue;
         const auto *at = subdomains.surroundings(inside);
         if (all || (at != nullptr && at->is_home))
@@ -208,7 +210,7 @@ namespace graupel
     const auto of_own = contacts.contacts_of(arrays, same_rows(arrays.n_owned));
     loose.insert(loose.end(), of_own.begin(), of_own.end());
     for (const auto i : rows)
-      arrays.body[i].position = subdomains.within(arrays.body[i].position);
+      arrays.body[i].position[2] = period.within(arrays.body[i].position[2]);
     halo.expect_jumps();
     return true;
   }
@@ -336,7 +338,7 @@ namespace graupel
   Integration
   Dem::integration(const double dt) const
   {
-    return {contacts.quanta(), gravity, dt, external_forces, external_torques};
+    return {contacts.quanta(), gravity, dt, external_forces, external_torques, period};
   }
 
   void
@@ -367,6 +369,14 @@ namespace graupel
       {
         CostSheet::Scope scope(costs, CostSheet::contact);
         kick(arrays, integration(dt));
+      }
+    // Between two advances nobody is beyond a periodic end: those that belong to another
+    // rank there are given to it, and then all find their ghosts.
+    for (unsigned int pass = 0; pass < 2 && period.exists(); ++pass)
+      {
+        take_over();
+        list_is_valid = false;
+        meet_neighbors(0.);
       }
     shape.follow(walls);
     add_up(n);
@@ -425,11 +435,11 @@ namespace graupel
   Dem::throw_first_problem() const
   {
     // Of the earliest substep, and of the lowest rank that had a problem in it.
-    const std::uint64_t n_ranks = mpi::n_mpi_processes(communicator());
-    const std::uint64_t mine =
+    const std::int64_t n_ranks = mpi::n_mpi_processes(communicator());
+    const std::int64_t mine =
       stopped && !stopped->problem.empty()
         ? stopped->substep * n_ranks + mpi::this_mpi_process(communicator())
-        : std::numeric_limits<std::uint64_t>::max();
+        : std::numeric_limits<std::int64_t>::max();
     const unsigned int culprit = mpi::min(mine, communicator()) % n_ranks;
     throw DemError(mpi::broadcast(
       communicator(), stopped ? stopped->problem : std::string(), culprit));
@@ -490,7 +500,7 @@ namespace graupel
         const auto first     = arrays.n_owned;
         particle_store.accept(arrays, hand_over.passengers);
         for (unsigned int row = first; row < arrays.n_owned; ++row)
-          arrays.body[row].position = subdomains.within(arrays.body[row].position);
+          arrays.body[row].position[2] = period.within(arrays.body[row].position[2]);
         loose.insert(loose.end(), hand_over.contacts.begin(), hand_over.contacts.end());
       }
     ghosts_are_placed = false;

@@ -91,7 +91,7 @@ namespace graupel
               spin       = spin_drift + half.spin;
               b[0] += in.step * drift.x;
               b[1] += in.step * drift.y;
-              b[2] += in.step * drift.z;
+              b[2]                     = in.period.rounded(b[2] + in.step * drift.z);
               const Lanes speed_square = drift.norm_square();
               largest                  = max(largest, speed_square);
               sound = sound && speed_square < std::numeric_limits<double>::max();

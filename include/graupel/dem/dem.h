@@ -376,6 +376,7 @@ namespace graupel
     Materials            materials;
     dealii::Tensor<1, 3> gravity;
 
+    const Period   period;
     Subdomains     subdomains;
     ParticleStore  particle_store;
     ParticleArrays arrays;
@@ -413,8 +414,8 @@ namespace graupel
     // problem is empty where a neighbour has it.
     struct Stop
     {
-      std::uint64_t substep;
-      std::string   problem;
+      std::int64_t substep;
+      std::string  problem;
     };
     std::optional<Stop> stopped;
     unsigned int        substep_number = 0;

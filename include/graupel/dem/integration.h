@@ -2,6 +2,7 @@
 #define graupel_dem_integration_h
 
 #include <graupel/dem/contacts/contact_sweep.h>
+#include <graupel/dem/numbers/period.h>
 
 namespace graupel
 {
@@ -18,6 +19,8 @@ namespace graupel
     bool external_forces;
     /** The same of the torques. */
     bool external_torques;
+    /** Of the vessel's ends. */
+    Period period;
   };
 
   /**

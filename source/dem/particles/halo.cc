@@ -27,8 +27,9 @@ namespace graupel
     }
   } // namespace
 
-  Halo::Halo(const Subdomains &subdomains, MPI_Comm communicator)
+  Halo::Halo(const Subdomains &subdomains, const Period &period, MPI_Comm communicator)
     : subdomains(subdomains)
+    , period(period)
     , communicator(communicator)
   {
     reset();
@@ -125,8 +126,10 @@ namespace graupel
       to.rows.clear();
     for (std::uint32_t row = 0; row < particles.n_owned; ++row)
       {
-        const auto &x    = particles.body[row].position;
-        const auto *home = subdomains.surroundings(subdomains.within(x));
+        const auto &x      = particles.body[row].position;
+        auto        inside = x;
+        inside[2]          = period.within(x[2]);
+        const auto *home   = subdomains.surroundings(inside);
         if (home == nullptr)
           {
             std::ostringstream text;

@@ -37,14 +37,15 @@ namespace graupel
     }
   } // namespace
 
-  Subdomains::Subdomains(const VesselMesh &mesh, const double reach, const bool periodic)
+  Subdomains::Subdomains(const VesselMesh &mesh, const double reach, const Period &period)
     : mesh(mesh)
     , communicator(mesh.communicator())
     , me(mpi::this_mpi_process(communicator))
     , n_ranks(mpi::n_mpi_processes(communicator))
     , height(mesh.cylinder().height)
-    , own_shifts(periodic ? std::vector<double>{0., height, -height}
-                          : std::vector<double>{0.})
+    , own_shifts(period.exists()
+                   ? std::vector<double>{0., period.length(), -period.length()}
+                   : std::vector<double>{0.})
     , corner(-mesh.cylinder().diameter / 2., -mesh.cylinder().diameter / 2., 0.)
     , size(reach)
     , n_bins{}
@@ -256,14 +257,6 @@ namespace graupel
   {
     const auto found = known.find(bin(x));
     return found == known.end() ? nullptr : &found->second;
-  }
-
-  dealii::Point<3>
-  Subdomains::within(dealii::Point<3> x) const
-  {
-    if (own_shifts.size() > 1 && (x[2] < 0. || x[2] >= height))
-      x[2] += x[2] < 0. ? height : -height;
-    return x;
   }
 
   bool

@@ -24,8 +24,8 @@ namespace graupel
   class Halo
   {
   public:
-    /** @p subdomains must outlive the halo. */
-    Halo(const Subdomains &subdomains, MPI_Comm communicator);
+    /** @p subdomains must outlive the halo; @p period is that of its ends. */
+    Halo(const Subdomains &subdomains, const Period &period, MPI_Comm communicator);
     ~Halo();
 
     Halo(const Halo &)            = delete;
@@ -144,6 +144,7 @@ namespace graupel
     int       tag(const int base, const unsigned int shift) const;
 
     const Subdomains      &subdomains;
+    const Period           period;
     const MPI_Comm         communicator;
     std::vector<Outgoing>  outgoing;
     std::vector<Incoming>  incoming;

@@ -1,6 +1,7 @@
 #ifndef graupel_dem_particles_subdomains_h
 #define graupel_dem_particles_subdomains_h
 
+#include <graupel/dem/numbers/period.h>
 #include <graupel/mesh/vessel_mesh.h>
 
 #include <cstdint>
@@ -26,10 +27,10 @@ namespace graupel
     using Bin = std::uint64_t;
 
     /**
-     * @p reach: the least edge of a bin [m]. With @p periodic ends what is near the one
-     * is near the other as well. @p mesh must outlive this object. Collective.
+     * @p reach: the edge of a bin [m]. With a @p period what is near the one end is near
+     * the other as well. @p mesh must outlive this object. Collective.
      */
-    Subdomains(const VesselMesh &mesh, const double reach, const bool periodic);
+    Subdomains(const VesselMesh &mesh, const double reach, const Period &period);
 
     /** Looks at the mesh anew, after its cells or their owners have changed. Collective.
      */
@@ -64,7 +65,7 @@ namespace graupel
     }
 
     /** Added to the heights of copies [m]: 0, and with periodic ends up and down by the
-     * height of the vessel. */
+     * period. */
     const std::vector<double> &
     shifts() const
     {
@@ -96,9 +97,6 @@ namespace graupel
      * seen through periodic ends from there.
      */
     const Surroundings *surroundings(const dealii::Point<3> &x) const;
-
-    /** @p x, brought back into the vessel where it has left it through a periodic end. */
-    dealii::Point<3> within(dealii::Point<3> x) const;
 
     /** Whether @p x with a shift can be near anything at all. */
     bool is_near_vessel(const dealii::Point<3> &x, const unsigned int shift) const;
