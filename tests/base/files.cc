@@ -19,10 +19,10 @@ namespace mpi = dealii::Utilities::MPI;
 namespace
 {
   // A directory of its own, the same on all ranks.
-  class Files : public testing::Test
+  class WrittenFiles : public testing::Test
   {
   protected:
-    Files()
+    WrittenFiles()
     {
       std::string text;
       if (is_first())
@@ -34,7 +34,7 @@ namespace
       folder = mpi::broadcast(MPI_COMM_WORLD, text, 0);
     }
 
-    ~Files() override
+    ~WrittenFiles() override
     {
       MPI_Barrier(MPI_COMM_WORLD);
       if (is_first())
@@ -110,7 +110,7 @@ namespace
   }
 } // namespace
 
-TEST_F(Files, AreWrittenWholeOrStayAsTheyWere)
+TEST_F(WrittenFiles, AreWrittenWholeOrStayAsTheyWere)
 {
   const std::string path = own();
   write_file(path, [](std::ostream &file) { file << "first"; });
@@ -129,7 +129,7 @@ TEST_F(Files, AreWrittenWholeOrStayAsTheyWere)
             "Cannot write " + path + "/a: Not a directory.");
 }
 
-TEST_F(Files, OfSeveralRanksHaveTheirPartsInOrder)
+TEST_F(WrittenFiles, OfSeveralRanksHaveTheirPartsInOrder)
 {
   const std::string  path = folder + "/of-all";
   const unsigned int n    = mpi::n_mpi_processes(MPI_COMM_WORLD),
@@ -156,7 +156,7 @@ TEST_F(Files, OfSeveralRanksHaveTheirPartsInOrder)
             "Cannot write " + nowhere + ": No such file or directory.");
 }
 
-TEST_F(Files, GrowByWholeTextsOnly)
+TEST_F(WrittenFiles, GrowByWholeTextsOnly)
 {
   const std::string path = own();
   append_to_file(path, "one\n");

@@ -96,6 +96,9 @@ namespace
     settings.gravity           = Vector();
     settings.boundaries.bottom = "parabolic";
     settings.boundaries.wall   = "no-slip";
+    // The pressure pushes the whole tube ten thousand times as much as the sphere, and
+    // leaves the rounding errors of that.
+    settings.imbalance = 1e-9;
     return settings;
   }
   const Point  off_axis(3e-3, 0., 0.0045);

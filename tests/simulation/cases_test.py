@@ -10,7 +10,7 @@ import math
 import shutil
 import subprocess
 
-from runs import ROOT, RunTest, call, main
+from runs import FAULT, ROOT, RunTest, call, main
 
 from common.particles import positions
 from common.reference import ergun_pressure_drop
@@ -179,7 +179,7 @@ class Resuming(CaseTest):
     """What goes on from a checkpoint."""
 
     def test_another_flow_under_the_old_name(self):
-        self.assertEqual(self.run_case("resume", output="o").status, 1)
+        self.assertEqual(self.run_case("resume", output="o").status, FAULT)
         values = {"Boundary conditions/bottom": "plug", "Flow/superficial velocities": "0.6"}
         run = self.run_case("resume", values, "--resume", output="o")
         if run.status == 0:
@@ -193,7 +193,7 @@ class Resuming(CaseTest):
 
         whole = self.finished("restart", entering(1000), output="whole")
         cut = self.run_case("restart", entering(0.08001), output="cut")
-        self.assertEqual(cut.status, 1)
+        self.assertEqual(cut.status, FAULT)
         resumed = self.finished("restart", entering(1000), "--resume", output="cut")
         one, other = whole.rows("monitors.csv"), resumed.rows("monitors.csv")
         self.assertEqual(len(one), len(other))

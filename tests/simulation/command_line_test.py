@@ -6,7 +6,7 @@ import pathlib
 import tempfile
 import unittest
 
-from runs import ROOT, call, main
+from runs import FAULT, ROOT, call, main
 
 SHORT = ROOT / "prm" / "packed-bed" / "short.prm"
 
@@ -150,7 +150,7 @@ class ShortRun(unittest.TestCase):
                 "--output",
                 folder,
             )
-            self.assertEqual(finished.returncode, 1)
+            self.assertEqual(finished.returncode, FAULT)
             self.assertIn("alpha", finished.stderr)
             self.assertIn("At the particle at", finished.stderr)
             self.assertFalse((pathlib.Path(folder) / "summary.json").exists())
@@ -250,7 +250,7 @@ class Checkpoints(unittest.TestCase):
     def stop(self, output, *overrides):
         arguments = [part for override in overrides for part in ("--set", override)]
         finished = call(SHORT, "--output", output, *arguments)
-        self.assertEqual(finished.returncode, 1, finished.stdout)
+        self.assertEqual(finished.returncode, FAULT, finished.stdout)
         self.assertIn("--resume", finished.stderr)
         self.assertIn(str(output / "checkpoint"), finished.stderr)
         self.assertFalse((output / "summary.json").exists())

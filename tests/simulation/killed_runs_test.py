@@ -11,7 +11,7 @@ import signal
 import subprocess
 import time
 
-from runs import ROOT, RunTest, command, environment, main, overrides
+from runs import NOT_WRITTEN, ROOT, STOPPED, RunTest, command, environment, main, overrides
 
 CASES = ROOT / "tests" / "cases"
 # A checkpoint after each step.
@@ -31,11 +31,6 @@ MEANS = [
     for name in ("averages", "spectra", "averages-lines", "averages-planes", "averages-midplane")
 ] + ["snapshots.csv", "probes.csv"]
 
-
-# Exit status of a run that has stopped as it was asked to.
-STOPPED = 3
-# And of one that a file could not be written for.
-NOT_WRITTEN = 4
 
 
 class InterruptedRuns(RunTest):

@@ -11,6 +11,9 @@ import unittest
 
 # For the reader of ParaView's files and for the project's own tables.
 ROOT = pathlib.Path(__file__).resolve().parents[2]
+# Exit statuses: the run has stopped by a fault, as it was asked to, or as a file could not be
+# written.
+FAULT, STOPPED, NOT_WRITTEN = 2, 3, 4
 sys.dont_write_bytecode = True
 sys.path.insert(0, str(ROOT / "scripts"))
 
