@@ -32,7 +32,6 @@ MEANS = [
 ] + ["snapshots.csv", "probes.csv"]
 
 
-
 class InterruptedRuns(RunTest):
     """Runs that end before their time."""
 
