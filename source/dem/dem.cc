@@ -503,6 +503,9 @@ namespace graupel
           arrays.body[row].position[2] = period.within(arrays.body[row].position[2]);
         loose.insert(loose.end(), hand_over.contacts.begin(), hand_over.contacts.end());
       }
+    // Of those that have come, too.
+    external_forces   = external_forces || any(arrays.external_force);
+    external_torques  = external_torques || any(arrays.external_torque);
     ghosts_are_placed = false;
     list_is_valid     = false;
   }

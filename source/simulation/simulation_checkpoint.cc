@@ -29,6 +29,7 @@ namespace graupel
   void
   Simulation::resume()
   {
+    finish_checkpoint(files.path("checkpoint"), state.communicator);
     checkpoint =
       read_checkpoint(files.path("checkpoint"), state.parameters, changed_parameters);
     check_cases(checkpoint->first);

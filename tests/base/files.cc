@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include <sys/resource.h>
+#include <unistd.h>
 
 // Files that are written whole or not at all, and signals that are noted.
 
@@ -177,4 +178,18 @@ TEST(StopRequest, NotesASignal)
   note_signals();
   std::raise(SIGUSR1);
   EXPECT_EQ(noted_signal(), SIGUSR1);
+  // One that comes with it says the same.
+  std::raise(SIGTERM);
+  EXPECT_EQ(noted_signal(), SIGUSR1);
+}
+
+TEST(StopRequest, ALaterSignalEndsTheProcess)
+{
+  const auto ask_twice = [] {
+    note_signals();
+    std::raise(SIGUSR1);
+    sleep(3);
+    std::raise(SIGTERM);
+  };
+  EXPECT_EXIT(ask_twice(), testing::ExitedWithCode(128 + SIGTERM), "");
 }

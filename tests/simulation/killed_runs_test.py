@@ -153,21 +153,6 @@ class StoppedRuns(InterruptedRuns):
     def test_by_a_signal_on_two_ranks(self):
         self.expect_the_same("restart.prm", {}, ("flow",), ranks=2, end=self.stop_in)
 
-    def test_at_once_by_a_second_one(self):
-        # Between two signals a short step may end: try again then.
-        for _ in range(20):
-            run = self.start("restart.prm", {}, 1)
-            self.wait_for("settle", run, needs_checkpoint=False)
-            run.send_signal(signal.SIGUSR1)
-            run.send_signal(signal.SIGTERM)
-            run.communicate(timeout=60)
-            # Which of them comes first is the system's choice.
-            ended = (128 + signal.SIGTERM, 128 + signal.SIGUSR1)
-            self.assertIn(run.returncode, (STOPPED, *ended))
-            if run.returncode != STOPPED:
-                return
-        self.fail("the second signal was never felt")
-
     def test_before_a_time_limit(self):
         # A thousandth of a minute is over before the first step.
         def stop(_phase, file, values, _ranks):

@@ -13,7 +13,7 @@ namespace graupel
   };
 
   /** From now on the first of the signals SIGINT, SIGTERM and SIGUSR1 is only noted, and
-   * a second one ends the process at once. */
+   * a further one some seconds later ends the process at once. */
   void note_signals();
 
   /** The signal that was noted; 0 for none. */

@@ -133,6 +133,17 @@ namespace graupel
     MPI_Barrier(communicator);
   }
 
+  void
+  finish_checkpoint(const std::string &folder, MPI_Comm communicator)
+  {
+    // It is whole once the last one has another name.
+    const std::string unfinished = folder + ".new";
+    if (dealii::Utilities::MPI::this_mpi_process(communicator) == 0 &&
+        !fs::exists(folder) && fs::exists(folder + ".old") && fs::exists(unfinished))
+      fs::rename(unfinished, folder);
+    MPI_Barrier(communicator);
+  }
+
   std::pair<RunState, DemState>
   read_checkpoint(const std::string        &folder,
                   const RunParameters      &parameters,

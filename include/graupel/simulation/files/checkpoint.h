@@ -52,6 +52,10 @@ namespace graupel
                         const std::function<void(const std::string &)> &write_more,
                         MPI_Comm                                        communicator);
 
+  /** Does what write_checkpoint() had left to do where it was killed between taking the
+   * last checkpoint away and naming the new one. Collective. */
+  void finish_checkpoint(const std::string &folder, MPI_Comm communicator);
+
   /** Where write_more() of the checkpoint @p folder has put its files. */
   std::string checkpoint_fields(const std::string &folder);
 
