@@ -109,7 +109,7 @@ namespace graupel
         const double mass = arrays.mass[row]; // of the present density
         unpack(of(arrays.id[row])->parcel, arrays, row);
         arrays.mass[row]             = mass;
-        arrays.body[row].position[2] = period.rounded(arrays.body[row].position[2]);
+        arrays.body[row].position[2] = ends.rounded(arrays.body[row].position[2]);
         recount(arrays.load[row], state, contacts.quanta());
       }
     for (LooseContact contact : state.contacts)

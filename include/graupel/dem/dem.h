@@ -29,10 +29,39 @@ namespace graupel
     Dem(const DemParameters &parameters, VesselMesh &mesh, CostSheet &costs);
 
     /**
-     * Adds simulated particles. The same call on every rank, collective. Own rows
-     * stay, new ones come behind them. Throws DemError for a size that its type does
-     * not have (substep, halo and lists are made for those of the types), and for a place
-     * beyond a wall or inside of a body.
+     * Particles that are to be inserted, told by the same calls on every rank. No rank
+     * holds all of them: each keeps those whose bins it is asked of (Subdomains).
+     */
+    class Batch
+    {
+    public:
+      explicit Batch(const Dem &dem);
+
+      /** One that has no id gets the next free one. */
+      void add(const NewParticle &particle);
+
+    private:
+      friend Dem;
+
+      const Dem               *dem;
+      std::vector<NewParticle> share;
+      std::int64_t             next_id;
+      // Of all that will be in the vessel, by type.
+      std::vector<unsigned long> number;
+      std::vector<double>        volume;
+    };
+
+    /**
+     * Adds simulated particles, of sizes that their types have and at places where they
+     * may be. Own rows stay, new ones come behind them. Throws DemError, on all ranks,
+     * for a place outside of the mesh. Collective.
+     */
+    void insert(const Batch &batch);
+
+    /**
+     * The same for a few particles. The same call on every rank. Throws DemError also for
+     * a size that its type does not have (substep, halo and lists are made for those of
+     * the types), and for a place beyond a wall or inside of a body.
      */
     void insert(const std::vector<NewParticle> &added);
 
@@ -126,6 +155,20 @@ namespace graupel
     set_gravity(const double acceleration)
     {
       gravity = dealii::Tensor<1, 3>({0., 0., -acceleration});
+    }
+
+    /** Of the vessel's ends. */
+    const Period &
+    period() const
+    {
+      return ends;
+    }
+
+    /** Which ranks have cells where. */
+    const Subdomains &
+    ranks() const
+    {
+      return subdomains;
     }
 
     /** Where the particles are in the mesh, as of the last synchronise(). */
@@ -318,11 +361,12 @@ namespace graupel
     }
 
   private:
-    Integration                integration(const double dt) const;
-    void                       substep_by(const double dt);
-    void                       check_places(const std::vector<NewParticle> &added) const;
-    void                       check_sizes(const std::vector<NewParticle> &added) const;
-    std::string                infinite_position() const;
+    Integration integration(const double dt) const;
+    void        substep_by(const double dt);
+    // What is wrong with them, for a message.
+    std::string problem_of(const std::vector<NewParticle> &added) const;
+    std::string problem_of_places(const std::vector<NewParticle> &added) const;
+    std::string infinite_position() const;
     std::vector<std::uint32_t> departed_rows() const;
     void                       restore_counts(const DemState &state);
     // Of an advance() in @p n substeps, over all ranks; takes away what has left.
@@ -376,7 +420,7 @@ namespace graupel
     Materials            materials;
     dealii::Tensor<1, 3> gravity;
 
-    const Period   period;
+    const Period   ends;
     Subdomains     subdomains;
     ParticleStore  particle_store;
     ParticleArrays arrays;
