@@ -125,7 +125,7 @@ namespace graupel
   }
 
   std::vector<std::int64_t>
-  Dem::restore_walls(const DemState &state)
+  Dem::restore_walls(const DemState::Common &state)
   {
     time = state.clock_runs ? Clock(state.clock) : Clock();
     std::vector<std::int64_t> number_here(state.walls.size(), -1);

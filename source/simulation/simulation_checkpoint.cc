@@ -14,8 +14,8 @@ namespace graupel
   void
   Simulation::resume()
   {
-    checkpoint =
-      read_checkpoint(files.path("checkpoint"), state.parameters, changed_parameters);
+    checkpoint = read_checkpoint(
+      files.path("checkpoint"), state.parameters, changed_parameters, state.communicator);
     check_cases(checkpoint->first);
   }
 

@@ -103,15 +103,16 @@ namespace graupel
      */
     void adapt_mesh(const double cell_share);
 
-    /** All that the motion goes on from, the same on every rank. Collective. */
+    /** All that the motion goes on from, of this rank's own particles. */
     DemState state() const;
 
     /**
-     * Goes on from @p state instead of what is here; the mesh may have changed since
-     * construction. The masses are those of these parameters. A wall goes on from where
-     * one of the same name and shape was; contacts with walls that are no more, or have
-     * another shape, end. Throws DemError for particles that these parameters do not
-     * have. Collective. The motion goes on as it would have, bit by bit.
+     * Goes on from @p state, of which each rank has any part, instead of what is here;
+     * the mesh may have changed since construction. The masses are those of these
+     * parameters. A wall goes on from where one of the same name and shape was; contacts
+     * with walls that are no more, or have another shape, end. Throws DemError for
+     * particles that these parameters do not have. Collective. The motion goes on as it
+     * would have, bit by bit.
      */
     void restore(const DemState &state);
 
@@ -368,7 +369,9 @@ namespace graupel
     std::string problem_of_places(const std::vector<NewParticle> &added) const;
     std::string infinite_position() const;
     std::vector<std::uint32_t> departed_rows() const;
-    void                       restore_counts(const DemState &state);
+    std::string                problem_of(const DemState &state) const;
+    void                       take_rows(const DemState &state);
+    void                       restore_counts(const DemState::Common &state);
     // Of an advance() in @p n substeps, over all ranks; takes away what has left.
     void add_up(const unsigned int n);
     // Goes on without computing until the end of the advance(), so that no neighbour
@@ -401,7 +404,7 @@ namespace graupel
     std::string                 in_the_way_of(const Wall &wall) const;
     std::vector<DemState::Wall> state_of_walls() const;
     // The number here of each wall of a state; -1 for one whose contacts end.
-    std::vector<std::int64_t> restore_walls(const DemState &state);
+    std::vector<std::int64_t> restore_walls(const DemState::Common &state);
 
     double
     along_gravity(const unsigned int wall) const
