@@ -336,7 +336,8 @@ namespace graupel
     halo.place_ghosts(arrays);
     contacts.add(arrays, std::move(loose));
     loose.clear();
-    list_is_valid = false;
+    ghosts_are_placed = true;
+    list_is_valid     = false;
   }
 
   void
@@ -370,8 +371,7 @@ namespace graupel
       static_cast<unsigned int>(std::ceil(duration / longest_substep - 1e-9));
     const auto dt = duration / std::max(1u, n);
 
-    external_forces  = any(arrays.external_force);
-    external_torques = any(arrays.external_torque);
+    look_at_external_forces();
     contacts.reset_wall_loads();
     stopped.reset();
     const Clock begin = time;
@@ -523,8 +523,16 @@ namespace graupel
           arrays.body[row].position[2] = ends.within(arrays.body[row].position[2]);
         loose.insert(loose.end(), hand_over.contacts.begin(), hand_over.contacts.end());
       }
+    look_at_external_forces();
     ghosts_are_placed = false;
     list_is_valid     = false;
+  }
+
+  void
+  Dem::look_at_external_forces()
+  {
+    external_forces  = any(arrays.external_force);
+    external_torques = any(arrays.external_torque);
   }
 
   void

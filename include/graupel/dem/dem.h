@@ -391,6 +391,7 @@ namespace graupel
     void place_ghosts();
     // Gives and takes particles, as was announced with the last bodies.
     void take_over();
+    void look_at_external_forces();
     void update_neighbors(const double dt, const double speed_square);
     // Sends and receives ghosts; returns the largest square of a drift here and there.
     double                    meet_neighbors(const double speed_square);
