@@ -19,6 +19,22 @@ namespace graupel
   {
     std::vector<dealii::Point<3>> centers;
     double                        radius = 0.;
+    /** The bed stands so often above itself, each time higher by this [m]. */
+    unsigned int copies = 1;
+    double       lift   = 0.;
+
+    /** Calls @p visit with the center of each sphere of all copies. */
+    template <class Visit>
+    void
+    visit_all(const Visit &visit) const
+    {
+      for (unsigned int copy = 0; copy < copies; ++copy)
+        for (auto center : centers)
+          {
+            center[2] += copy * lift;
+            visit(center);
+          }
+    }
   };
 
   /** One sphere a line, "x y z radius" [m]; may end in .gz. */
@@ -56,7 +72,7 @@ namespace graupel
     double top = 0.;
     for (const auto &center : bed.centers)
       top = std::max(top, center[2] + bed.radius);
-    return top;
+    return top + (bed.copies - 1) * bed.lift;
   }
 
   /** The least lift of a copy at which it overlaps the bed nowhere [m]: what lies in the
@@ -90,11 +106,8 @@ namespace graupel
   inline void
   stack(Bed &bed, const unsigned int copies)
   {
-    const auto   once = bed.centers;
-    const double lift = copies > 1 ? lift_of_a_copy(bed) : 0.;
-    for (unsigned int copy = 1; copy < copies; ++copy)
-      for (const auto &center : once)
-        bed.centers.emplace_back(center[0], center[1], center[2] + copy * lift);
+    bed.lift   = copies > 1 ? lift_of_a_copy(bed) : 0.;
+    bed.copies = copies;
   }
 } // namespace graupel
 

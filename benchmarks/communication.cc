@@ -102,7 +102,9 @@ namespace
     Progress            progress;
     SimulationState     state(parameters, costs, progress, MPI_COMM_WORLD);
     Dem                &dem = state.dem;
-    dem.insert(bed.centers);
+    Dem::Batch          batch(dem);
+    bed.visit_all([&](const auto &center) { batch.add({center, bed.radius}); });
+    dem.insert(batch);
     const double substep = dem.substep();
     dem.advance(options.warm_up * substep);
     state.rest.original_diameter    = parameters.dem.particles.diameter;

@@ -77,8 +77,8 @@ namespace
   {
     std::ofstream file(name);
     file << std::setprecision(17);
-    for (const auto &center : bed.centers)
-      file << center << ' ' << bed.radius << '\n';
+    bed.visit_all(
+      [&](const auto &center) { file << center << ' ' << bed.radius << '\n'; });
     if (!file.flush())
       throw std::runtime_error(name + " could not be written");
   }
@@ -108,7 +108,10 @@ namespace
   void
   insert(Dem &dem, const Bed &bed, const double upward)
   {
-    dem.insert(bed.centers, dealii::Tensor<1, 3>({0., 0., upward}));
+    const dealii::Tensor<1, 3> velocity({0., 0., upward});
+    Dem::Batch                 batch(dem);
+    bed.visit_all([&](const auto &center) { batch.add({center, bed.radius, velocity}); });
+    dem.insert(batch);
   }
 
   void
@@ -158,13 +161,13 @@ namespace
     return mpi::sum(contacts, dem.communicator());
   }
 
-  // Largest memory that all ranks have held so far [bytes].
-  double
+  // Largest memory that a rank has held so far [bytes].
+  mpi::MinMaxAvg
   peak_memory()
   {
     rusage usage;
     getrusage(RUSAGE_SELF, &usage);
-    return mpi::sum(1024. * usage.ru_maxrss, MPI_COMM_WORLD);
+    return mpi::min_max_avg(1024. * usage.ru_maxrss, MPI_COMM_WORLD);
   }
 
   void
@@ -174,7 +177,7 @@ namespace
     const double pairs       = 0.5 * n * dem.coordination_number();
     const double wall_pairs  = n_wall_contacts(dem);
     const double speed       = dem.maximum_speed();
-    const double peak        = peak_memory();
+    const auto   peak        = peak_memory();
     const double step_ns     = 1e9 * cost.wall / (n * steps);
     const double step_cpu_ns = 1e9 * cost.cpu / (n * steps);
     const double bottom = dem.bottom_force(), wall = dem.wall_force();
@@ -200,9 +203,11 @@ namespace
     line("CPU per contact-step", 1e9 * cost.cpu / cost.contact_steps, "ns");
     line("wall-clock per particle-step", step_ns, "ns");
     line("CPU per particle-step", step_cpu_ns, "ns");
-    line("peak memory", 1e-6 * peak, "MB", " (libraries and mesh included)");
+    line("peak memory", 1e-6 * peak.sum, "MB", " (libraries and mesh included)");
+    line("peak memory of a rank, mean", 1e-6 * peak.avg, "MB");
+    line("peak memory of a rank, most", 1e-6 * peak.max, "MB");
     line("peak memory per particle",
-         (peak - baseline) / n,
+         (peak.sum - baseline) / n,
          "B",
          " (beyond that before the bed was inserted)");
     std::cout << "particle-step " << step_ns << std::endl;
@@ -231,7 +236,7 @@ namespace
     VesselMesh     mesh(cylinder, {options.cell_size}, MPI_COMM_WORLD);
     CostSheet      costs;
     Dem            dem(parameters, mesh, costs);
-    const double   baseline = peak_memory();
+    const double   baseline = peak_memory().sum;
     insert(dem, bed, options.velocity);
 
     advance(dem, options.warm_up, options.synchronise);

@@ -51,7 +51,7 @@ namespace graupel
       }
 
       void
-      write(const std::string &text, const std::uint64_t begin)
+      write(const std::string_view text, const std::uint64_t begin)
       {
         for (std::size_t done = 0; done < text.size();)
           {
@@ -89,13 +89,13 @@ namespace graupel
     }
 
     void
-    write_part(const std::string  &path,
-               const std::string  &text,
-               const std::uint64_t begin,
-               const int           flags)
+    write_parts(const std::string           &path,
+                const std::vector<FilePart> &parts,
+                const int                    flags)
     {
       OpenFile file(unfinished(path), O_WRONLY | flags);
-      file.write(text, begin);
+      for (const FilePart &part : parts)
+        file.write(part.bytes, part.begin);
       file.send_to_disk();
     }
 
@@ -121,11 +121,12 @@ namespace graupel
   void
   write_file(const std::string &path, const std::function<void(std::ostream &)> &write)
   {
-    std::ostringstream text;
-    write(text);
+    std::ostringstream stream;
+    write(stream);
+    const std::string text = stream.str();
     try
       {
-        write_part(path, text.str(), 0, O_CREAT | O_TRUNC);
+        write_parts(path, {{0, text}}, O_CREAT | O_TRUNC);
         std::filesystem::rename(unfinished(path), path);
       }
     catch (const std::system_error &error)
@@ -136,7 +137,9 @@ namespace graupel
   }
 
   void
-  write_file(const std::string &path, const std::string &part, MPI_Comm communicator)
+  write_file(const std::string           &path,
+             const std::vector<FilePart> &parts,
+             MPI_Comm                     communicator)
   {
     namespace mpi           = dealii::Utilities::MPI;
     const unsigned int rank = mpi::this_mpi_process(communicator);
@@ -162,12 +165,20 @@ namespace graupel
       throw FileError(path, failure);
     };
 
+    attempt(rank == 0, [&] { write_parts(path, {}, O_CREAT | O_TRUNC); });
+    attempt(true, [&] { write_parts(path, parts, 0); });
+    attempt(rank == 0, [&] { std::filesystem::rename(unfinished(path), path); });
+  }
+
+  void
+  write_file(const std::string &path, const std::string &part, MPI_Comm communicator)
+  {
     const std::uint64_t size  = part.size();
     std::uint64_t       begin = 0;
     MPI_Exscan(&size, &begin, 1, MPI_UINT64_T, MPI_SUM, communicator);
-    attempt(rank == 0, [&] { write_part(path, "", 0, O_CREAT | O_TRUNC); });
-    attempt(true, [&] { write_part(path, part, rank == 0 ? 0 : begin, 0); });
-    attempt(rank == 0, [&] { std::filesystem::rename(unfinished(path), path); });
+    if (dealii::Utilities::MPI::this_mpi_process(communicator) == 0)
+      begin = 0; // undefined there
+    write_file(path, {{begin, part}}, communicator);
   }
 
   void

@@ -96,13 +96,13 @@ namespace graupel
     , shape(mesh, walls)
     , materials(input.materials(false, walls))
     , gravity(input.gravity())
-    , period(input.walls.is_periodic() ? Period(mesh.cylinder().height) : Period())
+    , ends(input.walls.is_periodic() ? Period(mesh.cylinder().height) : Period())
     , subdomains(mesh,
                  2. * (1. + ParticleType::size_tolerance) * input.largest_radius() +
                    (1. + 2. * VerletList::moving_part) * skin,
-                 period)
+                 ends)
     , particle_store(mesh, subdomains)
-    , halo(subdomains, period, mesh.communicator())
+    , halo(subdomains, ends, mesh.communicator())
     , list(skin, near_skin)
     , contacts(input.normal_law(),
                input.rolling_law(),
@@ -129,44 +129,64 @@ namespace graupel
     insert(added);
   }
 
-  void
-  Dem::check_sizes(const std::vector<NewParticle> &added) const
+  std::string
+  Dem::problem_of(const std::vector<NewParticle> &added) const
   {
     const auto types = input.types();
     for (std::size_t k = 0; k < added.size(); ++k)
       if (const auto problem = problem_of_size(added[k], types); !problem.empty())
-        throw DemError("particle " + std::to_string(added[k].id < 0 ? k : added[k].id) +
-                       (added[k].id < 0 ? " of those to be inserted: " : ": ") + problem);
+        return "particle " + std::to_string(added[k].id < 0 ? k : added[k].id) +
+               (added[k].id < 0 ? " of those to be inserted: " : ": ") + problem;
+    return problem_of_places(added);
+  }
+
+  Dem::Batch::Batch(const Dem &dem)
+    : dem(&dem)
+    , next_id(dem.particle_store.next_number())
+    , number(dem.number_by_type)
+    , volume(dem.volume_by_type)
+  {
+  }
+
+  void
+  Dem::Batch::add(const NewParticle &particle)
+  {
+    const std::int64_t id = particle.id < 0 ? next_id : particle.id;
+    next_id               = std::max(next_id, id + 1);
+    volume[particle.type] += sphere_volume(particle.radius);
+    ++number[particle.type];
+    if (dem->subdomains.keeper(particle.position) !=
+        mpi::this_mpi_process(dem->communicator()))
+      return;
+    share.push_back(particle);
+    share.back().id          = id;
+    share.back().position[2] = dem->ends.rounded(particle.position[2]);
   }
 
   void
   Dem::insert(const std::vector<NewParticle> &added)
   {
-    check_sizes(added);
-    check_places(added);
+    if (const auto problem = problem_of(added); !problem.empty())
+      throw DemError(problem);
+    Batch batch(*this);
+    for (const NewParticle &particle : added)
+      batch.add(particle);
+    insert(batch);
+  }
+
+  void
+  Dem::insert(const Batch &batch)
+  {
     // The ghosts make room; the contacts with them find them again by their ids.
     const unsigned int old_n_owned = arrays.n_owned;
     loosen_contacts(arrays.id, same_rows(old_n_owned));
     arrays.resize(arrays.n_owned);
-    std::vector<NewParticle> share;
-    std::int64_t             number = particle_store.next_number();
-    for (std::size_t k = 0; k < added.size(); ++k)
-      {
-        const std::int64_t id = added[k].id < 0 ? number : added[k].id;
-        number                = std::max(number, id + 1);
-        volume_by_type[added[k].type] += sphere_volume(added[k].radius);
-        ++number_by_type[added[k].type];
-        if (k % mpi::n_mpi_processes(communicator()) !=
-            mpi::this_mpi_process(communicator()))
-          continue;
-        share.push_back(added[k]);
-        share.back().id          = id;
-        share.back().position[2] = period.rounded(added[k].position[2]);
-      }
-    particle_store.insert(share, arrays);
+    particle_store.insert(batch.share, arrays);
     for (unsigned int row = old_n_owned; row < arrays.n_owned; ++row)
       arrays.mass[row] =
         materials.density[arrays.type[row]] * sphere_volume(arrays.body[row].radius);
+    number_by_type = batch.number;
+    volume_by_type = batch.volume;
     find_ghosts();
   }
 
@@ -191,13 +211,13 @@ namespace graupel
   bool
   Dem::bring_within(const bool all)
   {
-    if (!period.exists())
+    if (!ends.exists())
       return false;
     std::vector<std::uint32_t> rows;
     for (std::uint32_t i = 0; i < arrays.n_owned; ++i)
       {
         auto inside = arrays.body[i].position;
-        inside[2]   = period.within(inside[2]);
+        inside[2]   = ends.within(inside[2]);
         if (inside[2] == arrays.body[i].position[2])
           continue;
         const auto *at = subdomains.surroundings(inside);
@@ -210,7 +230,7 @@ namespace graupel
     const auto of_own = contacts.contacts_of(arrays, same_rows(arrays.n_owned));
     loose.insert(loose.end(), of_own.begin(), of_own.end());
     for (const auto i : rows)
-      arrays.body[i].position[2] = period.within(arrays.body[i].position[2]);
+      arrays.body[i].position[2] = ends.within(arrays.body[i].position[2]);
     halo.expect_jumps();
     return true;
   }
@@ -316,7 +336,8 @@ namespace graupel
     halo.place_ghosts(arrays);
     contacts.add(arrays, std::move(loose));
     loose.clear();
-    list_is_valid = false;
+    ghosts_are_placed = true;
+    list_is_valid     = false;
   }
 
   void
@@ -338,7 +359,7 @@ namespace graupel
   Integration
   Dem::integration(const double dt) const
   {
-    return {contacts.quanta(), gravity, dt, external_forces, external_torques, period};
+    return {contacts.quanta(), gravity, dt, external_forces, external_torques, ends};
   }
 
   void
@@ -350,8 +371,7 @@ namespace graupel
       static_cast<unsigned int>(std::ceil(duration / longest_substep - 1e-9));
     const auto dt = duration / std::max(1u, n);
 
-    external_forces  = any(arrays.external_force);
-    external_torques = any(arrays.external_torque);
+    look_at_external_forces();
     contacts.reset_wall_loads();
     stopped.reset();
     const Clock begin = time;
@@ -372,7 +392,7 @@ namespace graupel
       }
     // Between two advances nobody is beyond a periodic end: those that belong to another
     // rank there are given to it, and then all find their ghosts.
-    for (unsigned int pass = 0; pass < 2 && period.exists(); ++pass)
+    for (unsigned int pass = 0; pass < 2 && ends.exists(); ++pass)
       {
         take_over();
         list_is_valid = false;
@@ -500,14 +520,19 @@ namespace graupel
         const auto first     = arrays.n_owned;
         particle_store.accept(arrays, hand_over.passengers);
         for (unsigned int row = first; row < arrays.n_owned; ++row)
-          arrays.body[row].position[2] = period.within(arrays.body[row].position[2]);
+          arrays.body[row].position[2] = ends.within(arrays.body[row].position[2]);
         loose.insert(loose.end(), hand_over.contacts.begin(), hand_over.contacts.end());
       }
-    // Of those that have come, too.
-    external_forces   = external_forces || any(arrays.external_force);
-    external_torques  = external_torques || any(arrays.external_torque);
+    look_at_external_forces();
     ghosts_are_placed = false;
     list_is_valid     = false;
+  }
+
+  void
+  Dem::look_at_external_forces()
+  {
+    external_forces  = any(arrays.external_force);
+    external_torques = any(arrays.external_torque);
   }
 
   void

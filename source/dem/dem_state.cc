@@ -1,8 +1,8 @@
 #include <graupel/dem/dem.h>
+#include <graupel/dem/numbers/exact_sum.h>
 #include <graupel/dem/particles/dem_error.h>
 
-#include <boost/serialization/array.hpp>
-#include <boost/serialization/vector.hpp>
+#include <numeric>
 
 namespace graupel
 {
@@ -10,19 +10,17 @@ namespace graupel
   {
     namespace mpi = dealii::Utilities::MPI;
 
-    template <class Element>
-    std::vector<Element>
-    from_all_ranks(const std::vector<Element> &mine, MPI_Comm communicator)
+    std::vector<std::uint32_t>
+    all_rows(const ParticleArrays &particles)
     {
-      std::vector<Element> all;
-      for (const auto &of_rank : mpi::all_gather(communicator, mine))
-        all.insert(all.end(), of_rank.begin(), of_rank.end());
-      return all;
+      std::vector<std::uint32_t> rows(particles.n_owned);
+      std::iota(rows.begin(), rows.end(), 0u);
+      return rows;
     }
 
     // A load that was counted in the quanta of a bed with other contacts.
     void
-    recount(Load &load, const DemState &state, const ForceQuanta &here)
+    recount(Load &load, const DemState::Common &state, const ForceQuanta &here)
     {
       if (state.force_quantum == 0. ||
           (state.force_quantum == here.force && state.torque_quantum == here.torque))
@@ -37,30 +35,58 @@ namespace graupel
   DemState
   Dem::state() const
   {
-    DemState                        result;
-    std::vector<DemState::Particle> mine;
-    std::vector<std::uint32_t>      rows;
+    DemState   result;
+    const auto all = contacts.contacts_of(arrays, all_rows(arrays));
+    // The places in it of what each particle takes part in.
+    std::vector<std::pair<std::int64_t, std::size_t>> of_id;
+    for (std::size_t k = 0; k < all.size(); ++k)
+      for (const std::int64_t id : {all[k].first, all[k].second})
+        of_id.emplace_back(id, k);
+    std::sort(of_id.begin(), of_id.end());
     for (unsigned int row = 0; row < arrays.n_owned; ++row)
       {
-        mine.push_back({arrays.id[row], pack(arrays, row)});
-        rows.push_back(row);
+        const auto id    = arrays.id[row];
+        const auto first = static_cast<std::int64_t>(result.contacts.size());
+        result.particles.push_back({id, first, pack(arrays, row)});
+        for (auto at = std::lower_bound(
+               of_id.begin(), of_id.end(), std::make_pair(id, std::size_t(0)));
+             at != of_id.end() && at->first == id;
+             ++at)
+          result.contacts.push_back(all[at->second]);
       }
-    result.particles = from_all_ranks(mine, communicator());
-    std::sort(result.particles.begin(),
-              result.particles.end(),
-              [](const auto &a, const auto &b) { return a.id < b.id; });
-    result.contacts = from_all_ranks(contacts.contacts_of(arrays, rows), communicator());
-    result.walls    = state_of_walls();
-    result.clock_runs        = time.has_value();
-    result.clock             = clock();
-    result.departed          = departed_by_type;
-    result.departed_volume   = departed_volume;
-    result.solid_volume      = volume_by_type;
-    result.next_id           = particle_store.next_number();
-    result.packing_materials = packing;
-    result.force_quantum     = contacts.quanta().force;
-    result.torque_quantum    = contacts.quanta().torque;
+    auto &common             = result.common;
+    common.walls             = state_of_walls();
+    common.clock_runs        = time.has_value();
+    common.clock             = clock();
+    common.departed          = departed_by_type;
+    common.departed_volume   = departed_volume;
+    common.solid_volume      = volume_by_type;
+    common.next_id           = particle_store.next_number();
+    common.packing_materials = packing;
+    common.force_quantum     = contacts.quanta().force;
+    common.torque_quantum    = contacts.quanta().torque;
     return result;
+  }
+
+  std::string
+  Dem::problem_of(const DemState &state) const
+  {
+    std::vector<NewParticle> added;
+    for (const auto &particle : state.particles)
+      {
+        const Parcel &parcel = particle.parcel;
+        if (parcel.type >= materials.n_types())
+          return "the checkpoint has particles of type " +
+                 std::to_string(parcel.type + 1) + ", which the parameters do not have";
+        const Body body = body_of(parcel);
+        added.push_back({body.position,
+                         body.radius,
+                         body.velocity,
+                         body.spin,
+                         parcel.type,
+                         particle.id});
+      }
+    return problem_of(added);
   }
 
   void
@@ -72,65 +98,78 @@ namespace graupel
     loose.clear();
     particle_store.clear();
     halo.reset();
-    const unsigned int n_types = materials.n_types();
-    volume_by_type.assign(n_types, 0.);
-    number_by_type.assign(n_types, 0);
-    departed_by_type.assign(n_types, 0);
-    departed_volume.assign(n_types, 0.);
+    const auto number_here = restore_walls(state.common);
+    throw_together(problem_of(state), communicator());
+    take_rows(state);
 
-    const auto               number_here = restore_walls(state);
-    std::vector<NewParticle> added;
-    for (const auto &particle : state.particles)
-      {
-        const Parcel &parcel = particle.parcel;
-        if (parcel.type >= materials.n_types())
-          throw DemError("the checkpoint has particles of type " +
-                         std::to_string(parcel.type + 1) +
-                         ", which the parameters do not have");
-        const Body body = body_of(parcel);
-        added.push_back({body.position,
-                         body.radius,
-                         body.velocity,
-                         body.spin,
-                         parcel.type,
-                         particle.id});
-      }
-    insert(added);
-
-    const auto of = [&](const std::int64_t id) {
-      return std::lower_bound(
-        state.particles.begin(),
-        state.particles.end(),
-        id,
-        [](const auto &particle, const std::int64_t i) { return particle.id < i; });
+    // Of some of the rows as they are now. Those with walls that are not here are left
+    // out.
+    const auto contacts_of_rows = [&](const std::vector<std::uint32_t> &rows) {
+      std::vector<LooseContact> result;
+      for (const auto row : rows)
+        {
+          const auto end = row + 1 < state.particles.size()
+                             ? state.particles[row + 1].first_contact
+                             : static_cast<std::int64_t>(state.contacts.size());
+          for (auto k = state.particles[row].first_contact; k < end; ++k)
+            {
+              LooseContact contact = state.contacts[k];
+              if (contact.second < 0)
+                {
+                  const auto wall = number_here.at(wall_of(contact.second));
+                  if (wall < 0)
+                    continue;
+                  contact.second = wall_id(wall, facet_of(contact.second));
+                }
+              result.push_back(contact);
+            }
+        }
+      return result;
     };
-    for (unsigned int row = 0; row < arrays.n_owned; ++row)
-      {
-        const double mass = arrays.mass[row]; // of the present density
-        unpack(of(arrays.id[row])->parcel, arrays, row);
-        arrays.mass[row]             = mass;
-        arrays.body[row].position[2] = period.rounded(arrays.body[row].position[2]);
-        recount(arrays.load[row], state, contacts.quanta());
-      }
-    for (LooseContact contact : state.contacts)
-      {
-        if (contact.second < 0)
-          {
-            const auto wall = number_here.at(wall_of(contact.second));
-            if (wall < 0)
-              continue;
-            contact.second = wall_id(wall, facet_of(contact.second));
-          }
-        loose.push_back(contact);
-      }
+    const auto moves = particle_store.migrate(arrays, contacts_of_rows, {}, 0);
+    std::vector<std::uint32_t> staying;
+    for (std::uint32_t row = 0; row < moves.new_row.size(); ++row)
+      if (moves.new_row[row] != ParticleStore::no_row)
+        staying.push_back(row);
+    loose = contacts_of_rows(staying);
+    loose.insert(loose.end(), moves.arrived.begin(), moves.arrived.end());
     find_ghosts();
-    restore_counts(state);
     shape.follow(walls);
-    use_packing_materials(state.packing_materials);
+    use_packing_materials(state.common.packing_materials);
   }
 
   void
-  Dem::restore_counts(const DemState &state)
+  Dem::take_rows(const DemState &state)
+  {
+    std::vector<ParticleStore::Passenger> passengers;
+    for (const auto &particle : state.particles)
+      passengers.push_back({particle.id, particle.parcel});
+    particle_store.begin_with(arrays, passengers, state.common.next_id);
+
+    const unsigned int n_types = materials.n_types();
+    number_by_type.assign(n_types, 0);
+    std::vector<ExactSum> volumes(n_types,
+                                  ExactSum(sphere_volume(input.largest_radius())));
+    for (unsigned int row = 0; row < arrays.n_owned; ++row)
+      {
+        Body               &body   = arrays.body[row];
+        const unsigned char type   = arrays.type[row];
+        const double        volume = sphere_volume(body.radius);
+        arrays.mass[row] = materials.density[type] * volume; // the present density
+        body.position[2] = ends.rounded(body.position[2]);
+        recount(arrays.load[row], state.common, contacts.quanta());
+        ++number_by_type[type];
+        volumes[type].add(volume);
+      }
+    mpi::sum(number_by_type, communicator(), number_by_type);
+    volume_by_type = ExactSum::totals(volumes, communicator());
+    departed_by_type.assign(n_types, 0);
+    departed_volume.assign(n_types, 0.);
+    restore_counts(state.common);
+  }
+
+  void
+  Dem::restore_counts(const DemState::Common &state)
   {
     // Of fewer types than here, what is not told is zero.
     std::copy(state.departed.begin(),
@@ -145,6 +184,5 @@ namespace graupel
               state.solid_volume.begin() +
                 std::min(state.solid_volume.size(), volume_by_type.size()),
               volume_by_type.begin());
-    particle_store.number_from(state.next_id);
   }
 } // namespace graupel

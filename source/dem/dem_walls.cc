@@ -88,8 +88,8 @@ namespace graupel
     return {};
   }
 
-  void
-  Dem::check_places(const std::vector<NewParticle> &added) const
+  std::string
+  Dem::problem_of_places(const std::vector<NewParticle> &added) const
   {
     for (std::size_t k = 0; k < added.size(); ++k)
       if (const Wall *wall =
@@ -103,8 +103,9 @@ namespace graupel
                    : surface->is_container ? "outside of"
                                            : "inside of")
                << " the wall \"" << wall->name << '"';
-          throw DemError(text.str());
+          return text.str();
         }
+    return {};
   }
 
   std::vector<DemState::Wall>
@@ -124,7 +125,7 @@ namespace graupel
   }
 
   std::vector<std::int64_t>
-  Dem::restore_walls(const DemState &state)
+  Dem::restore_walls(const DemState::Common &state)
   {
     time = state.clock_runs ? Clock(state.clock) : Clock();
     std::vector<std::int64_t> number_here(state.walls.size(), -1);

@@ -55,7 +55,8 @@ namespace graupel
     summary.parameter_file = parameter_file;
     summary.fluid          = parameters.fluid;
     if (!parameters.filling.start_from.empty())
-      given_bed = read_bed(parameters.filling.start_from + "/bed.bin", parameters);
+      given_bed =
+        read_bed(parameters.filling.start_from + "/bed.bin", parameters, communicator);
   }
 
   void
@@ -199,9 +200,8 @@ namespace graupel
                                                        summary.costs,
                                                        state.communicator);
     const CostSheet::Scope timing(summary.costs, CostSheet::output);
-    const DemState         particles = state.dem.state();
-    if (mpi::this_mpi_process(state.communicator) == 0)
-      write_bed(files.path("bed.bin"), state.parameters, particles);
+    write_bed(
+      files.path("bed.bin"), state.parameters, state.dem.state(), state.communicator);
     files.add_particles(state.time, state.dem);
     if (bed.exists)
       files.write_bed(

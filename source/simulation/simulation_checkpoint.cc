@@ -30,8 +30,8 @@ namespace graupel
   Simulation::resume()
   {
     finish_checkpoint(files.path("checkpoint"), state.communicator);
-    checkpoint =
-      read_checkpoint(files.path("checkpoint"), state.parameters, changed_parameters);
+    checkpoint = read_checkpoint(
+      files.path("checkpoint"), state.parameters, changed_parameters, state.communicator);
     check_cases(checkpoint->first);
   }
 

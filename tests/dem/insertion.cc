@@ -268,11 +268,12 @@ namespace
 
   TEST(Insertion, ListFromAFile)
   {
-    const auto file = write_list("# two spheres\n"
-                                 "diameter, z, y, x, vz, wy, type\n"
-                                 "2e-3, 0.01, 0, 1e-3, -0.5, 7, 1\n\n"
-                                 "1e-3, 0.02, 1e-3, 0, 0, 0, 2 # small\n");
-    const auto read = read_particle_list(file, 2);
+    const auto               file = write_list("# two spheres\n"
+                                               "diameter, z, y, x, vz, wy, type\n"
+                                               "2e-3, 0.01, 0, 1e-3, -0.5, 7, 1\n\n"
+                                               "1e-3, 0.02, 1e-3, 0, 0, 0, 2 # small\n");
+    std::vector<NewParticle> read;
+    read_particle_list(file, 2, [&](const NewParticle &p) { read.push_back(p); });
     ASSERT_EQ(read.size(), 2u);
     EXPECT_EQ(read[0].position, Point<3>(1e-3, 0., 0.01));
     EXPECT_EQ(read[0].radius, 1e-3);
@@ -292,7 +293,7 @@ namespace
     const auto message = [](const std::string &text) {
       try
         {
-          read_particle_list(write_list(text), 1);
+          read_particle_list(write_list(text), 1, [](const NewParticle &) {});
         }
       catch (const InputError &error)
         {

@@ -49,16 +49,16 @@ namespace
     prepare(whole.dem);
     Phase phase(parameters, whole.dem);
     go(phase, n_before);
-    const auto particles = through_a_file(whole.dem.state());
-    const auto state     = through_a_file(phase.state());
-    const bool packing   = whole.dem.packing_materials();
+    const auto part = whole.dem.state(), all = whole_state(whole.dem);
+    const auto state   = through_a_file(phase.state());
+    const bool packing = whole.dem.packing_materials();
     go(phase, n_after);
     EXPECT_GT(phase.time(), 0.);
     for (MPI_Comm communicator : {MPI_COMM_WORLD, MPI_COMM_SELF})
       {
         SmallColumn column(spheres, communicator);
         Phase       again(parameters, column.dem);
-        column.dem.restore(particles);
+        column.dem.restore(communicator == MPI_COMM_SELF ? all : part);
         again.restore(state);
         EXPECT_EQ(column.dem.packing_materials(), packing);
         go(again, n_after);

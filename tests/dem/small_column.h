@@ -5,10 +5,45 @@
 
 #include <gtest/gtest.h>
 
+#include <cstring>
 #include <map>
 
 namespace graupel
 {
+  /** The lists of all ranks behind each other, on each of them. */
+  template <class Record>
+  std::vector<Record>
+  of_all_ranks(const std::vector<Record> &mine, MPI_Comm communicator)
+  {
+    const auto       *bytes = reinterpret_cast<const char *>(mine.data());
+    std::vector<char> part(bytes, bytes + mine.size() * sizeof(Record)), whole;
+    for (const auto &of_rank : dealii::Utilities::MPI::all_gather(communicator, part))
+      whole.insert(whole.end(), of_rank.begin(), of_rank.end());
+    std::vector<Record> all(whole.size() / sizeof(Record));
+    std::memcpy(static_cast<void *>(all.data()), whole.data(), whole.size());
+    return all;
+  }
+
+  /** The state of all ranks, for a column that one rank has alone. */
+  inline DemState
+  whole_state(const Dem &dem)
+  {
+    const auto  communicator = dem.communicator();
+    DemState    state        = dem.state();
+    std::size_t below        = 0;
+    const auto  numbers =
+      dealii::Utilities::MPI::all_gather(communicator, state.contacts.size());
+    for (unsigned int rank = 0;
+         rank < dealii::Utilities::MPI::this_mpi_process(communicator);
+         ++rank)
+      below += numbers[rank];
+    for (auto &particle : state.particles)
+      particle.first_contact += below;
+    state.particles = of_all_ranks(state.particles, communicator);
+    state.contacts  = of_all_ranks(state.contacts, communicator);
+    return state;
+  }
+
   /** A small column with spheres of 2 mm, and a DEM in it. */
   struct SmallColumn
   {
@@ -122,8 +157,8 @@ namespace graupel
     }
 
     VesselMesh mesh;
-    CostSheet    costs;
-    Dem          dem;
+    CostSheet  costs;
+    Dem        dem;
   };
 } // namespace graupel
 

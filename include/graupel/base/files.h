@@ -7,6 +7,8 @@
 #include <iosfwd>
 #include <stdexcept>
 #include <string>
+#include <string_view>
+#include <vector>
 
 namespace graupel
 {
@@ -27,8 +29,19 @@ namespace graupel
   void write_file(const std::string                         &path,
                   const std::function<void(std::ostream &)> &write);
 
-  /** The same for a file whose parts the ranks have, one behind another in their order.
-   * Collective; throws on all ranks. */
+  /** Bytes, and where in a file they belong. */
+  struct FilePart
+  {
+    std::uint64_t    begin = 0;
+    std::string_view bytes;
+  };
+
+  /** The same for a file whose parts the ranks have. Collective; throws on all ranks. */
+  void write_file(const std::string           &path,
+                  const std::vector<FilePart> &parts,
+                  MPI_Comm                     communicator);
+
+  /** The same for parts that lie one behind another in the order of the ranks. */
   void write_file(const std::string &path,
                   const std::string &part,
                   MPI_Comm           communicator);

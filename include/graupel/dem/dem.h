@@ -29,10 +29,39 @@ namespace graupel
     Dem(const DemParameters &parameters, VesselMesh &mesh, CostSheet &costs);
 
     /**
-     * Adds simulated particles. The same call on every rank, collective. Own rows
-     * stay, new ones come behind them. Throws DemError for a size that its type does
-     * not have (substep, halo and lists are made for those of the types), and for a place
-     * beyond a wall or inside of a body.
+     * Particles that are to be inserted, told by the same calls on every rank. No rank
+     * holds all of them: each keeps those whose bins it is asked of (Subdomains).
+     */
+    class Batch
+    {
+    public:
+      explicit Batch(const Dem &dem);
+
+      /** One that has no id gets the next free one. */
+      void add(const NewParticle &particle);
+
+    private:
+      friend Dem;
+
+      const Dem               *dem;
+      std::vector<NewParticle> share;
+      std::int64_t             next_id;
+      // Of all that will be in the vessel, by type.
+      std::vector<unsigned long> number;
+      std::vector<double>        volume;
+    };
+
+    /**
+     * Adds simulated particles, of sizes that their types have and at places where they
+     * may be. Own rows stay, new ones come behind them. Throws DemError, on all ranks,
+     * for a place outside of the mesh. Collective.
+     */
+    void insert(const Batch &batch);
+
+    /**
+     * The same for a few particles. The same call on every rank. Throws DemError also for
+     * a size that its type does not have (substep, halo and lists are made for those of
+     * the types), and for a place beyond a wall or inside of a body.
      */
     void insert(const std::vector<NewParticle> &added);
 
@@ -74,15 +103,16 @@ namespace graupel
      */
     void adapt_mesh(const double cell_share);
 
-    /** All that the motion goes on from, the same on every rank. Collective. */
+    /** All that the motion goes on from, of this rank's own particles. */
     DemState state() const;
 
     /**
-     * Goes on from @p state instead of what is here; the mesh may have changed since
-     * construction. The masses are those of these parameters. A wall goes on from where
-     * one of the same name and shape was; contacts with walls that are no more, or have
-     * another shape, end. Throws DemError for particles that these parameters do not
-     * have. Collective. The motion goes on as it would have, bit by bit.
+     * Goes on from @p state, of which each rank has any part, instead of what is here;
+     * the mesh may have changed since construction. The masses are those of these
+     * parameters. A wall goes on from where one of the same name and shape was; contacts
+     * with walls that are no more, or have another shape, end. Throws DemError for
+     * particles that these parameters do not have. Collective. The motion goes on as it
+     * would have, bit by bit.
      */
     void restore(const DemState &state);
 
@@ -126,6 +156,20 @@ namespace graupel
     set_gravity(const double acceleration)
     {
       gravity = dealii::Tensor<1, 3>({0., 0., -acceleration});
+    }
+
+    /** Of the vessel's ends. */
+    const Period &
+    period() const
+    {
+      return ends;
+    }
+
+    /** Which ranks have cells where. */
+    const Subdomains &
+    ranks() const
+    {
+      return subdomains;
     }
 
     /** Where the particles are in the mesh, as of the last synchronise(). */
@@ -318,13 +362,16 @@ namespace graupel
     }
 
   private:
-    Integration                integration(const double dt) const;
-    void                       substep_by(const double dt);
-    void                       check_places(const std::vector<NewParticle> &added) const;
-    void                       check_sizes(const std::vector<NewParticle> &added) const;
-    std::string                infinite_position() const;
+    Integration integration(const double dt) const;
+    void        substep_by(const double dt);
+    // What is wrong with them, for a message.
+    std::string problem_of(const std::vector<NewParticle> &added) const;
+    std::string problem_of_places(const std::vector<NewParticle> &added) const;
+    std::string infinite_position() const;
     std::vector<std::uint32_t> departed_rows() const;
-    void                       restore_counts(const DemState &state);
+    std::string                problem_of(const DemState &state) const;
+    void                       take_rows(const DemState &state);
+    void                       restore_counts(const DemState::Common &state);
     // Of an advance() in @p n substeps, over all ranks; takes away what has left.
     void add_up(const unsigned int n);
     // Goes on without computing until the end of the advance(), so that no neighbour
@@ -344,6 +391,7 @@ namespace graupel
     void place_ghosts();
     // Gives and takes particles, as was announced with the last bodies.
     void take_over();
+    void look_at_external_forces();
     void update_neighbors(const double dt, const double speed_square);
     // Sends and receives ghosts; returns the largest square of a drift here and there.
     double                    meet_neighbors(const double speed_square);
@@ -357,7 +405,7 @@ namespace graupel
     std::string                 in_the_way_of(const Wall &wall) const;
     std::vector<DemState::Wall> state_of_walls() const;
     // The number here of each wall of a state; -1 for one whose contacts end.
-    std::vector<std::int64_t> restore_walls(const DemState &state);
+    std::vector<std::int64_t> restore_walls(const DemState::Common &state);
 
     double
     along_gravity(const unsigned int wall) const
@@ -376,7 +424,7 @@ namespace graupel
     Materials            materials;
     dealii::Tensor<1, 3> gravity;
 
-    const Period   period;
+    const Period   ends;
     Subdomains     subdomains;
     ParticleStore  particle_store;
     ParticleArrays arrays;

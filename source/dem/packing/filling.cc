@@ -261,12 +261,23 @@ namespace graupel
   }
 
   void
+  Filling::fill_from_list()
+  {
+    Dem::Batch batch(dem);
+    input.read_list(dem.cylinder(),
+                    dem.parameters(),
+                    dem.vessel(),
+                    [&](const NewParticle &particle) { batch.add(particle); });
+    dem.insert(batch);
+  }
+
+  void
   Filling::fill_at_once()
   {
     if (input.method == "volume")
       fill_volume();
     else if (input.method == "list")
-      dem.insert(input.read_list(dem.cylinder(), dem.parameters(), dem.vessel()));
+      fill_from_list();
     at.finished = true;
   }
 

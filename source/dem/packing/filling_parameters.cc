@@ -137,7 +137,8 @@ namespace graupel
     if (method == "none" || !start_from.empty())
       return;
     if (method == "list")
-      read_list(cylinder, particles, particles.walls.walls(cylinder));
+      read_list(
+        cylinder, particles, particles.walls.walls(cylinder), [](const NewParticle &) {});
     else
       check_amount(cylinder, particles);
   }
@@ -215,10 +216,11 @@ namespace graupel
               "Filling/drop speed");
   }
 
-  std::vector<NewParticle>
-  FillingParameters::read_list(const Cylinder          &cylinder,
-                               const DemParameters     &particles,
-                               const std::vector<Wall> &vessel) const
+  void
+  FillingParameters::read_list(const Cylinder                                 &cylinder,
+                               const DemParameters                            &particles,
+                               const std::vector<Wall>                        &vessel,
+                               const std::function<void(const NewParticle &)> &take) const
   {
     const auto types      = particles.types();
     const auto problem_of = [&](const NewParticle &particle) -> std::string {
@@ -238,6 +240,6 @@ namespace graupel
                  " % of its radius";
       return {};
     };
-    return read_particle_list(file, types.size(), problem_of);
+    read_particle_list(file, types.size(), take, problem_of);
   }
 } // namespace graupel

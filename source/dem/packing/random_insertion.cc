@@ -25,20 +25,15 @@ namespace graupel
   {
   }
 
-  double
-  RandomInsertion::next_random()
-  {
-    // The standard leaves the distributions to the library; this is the same
-    // everywhere.
-    return static_cast<double>(generator() >> 11) * 0x1p-53;
-  }
-
   NewParticle
-  RandomInsertion::next_particle()
+  RandomInsertion::next_particle(RandomPlaces &places)
   {
-    const auto random = [this]() { return next_random(); };
+    const auto random = [this]() { return next_random(generator); };
     if (!is_drawn)
-      drawn = source.draw(random);
+      {
+        places.give_back();
+        drawn = source.draw(random);
+      }
     // Where all are equal the next one is as good.
     is_drawn = source.n_sizes() != 1 || dem.n_by_type().size() > 1;
     NewParticle particle;
@@ -52,60 +47,77 @@ namespace graupel
                               const Point<3> &center,
                               const double    radius) const
   {
-    if (!dem.parameters().walls.is_periodic())
+    if (!dem.period().exists())
       return;
-    const dealii::Tensor<1, 3> shift({0., 0., dem.cylinder().height});
+    const dealii::Tensor<1, 3> shift({0., 0., dem.period().length()});
     places.add_obstacle(center + shift, radius);
     places.add_obstacle(center - shift, radius);
   }
 
-  void
-  RandomInsertion::add_obstacles(RandomPlaces &places, const Section &section) const
+  std::vector<NewParticle>
+  RandomInsertion::obstacles(const Section &section) const
   {
-    const ParticleArrays &p     = dem.particles();
-    const bool            all   = dem.parameters().walls.is_periodic();
-    const double          reach = 2. * (1. + gap) * dem.parameters().largest_radius();
-    std::vector<Point<3>> mine;
-    std::vector<double>   radii;
+    const ParticleArrays    &p     = dem.particles();
+    const Period             ends  = dem.period();
+    const double             reach = 2. * (1. + gap) * dem.parameters().largest_radius();
+    std::vector<NewParticle> result;
     for (unsigned int i = 0; i < p.n_owned; ++i)
       {
-        const double z = p.body[i].position[2];
-        if (all || (z > section.lower - reach && z < section.upper + reach))
-          {
-            mine.push_back(p.body[i].position);
-            radii.push_back(p.body[i].radius);
-          }
+        const Body  &body = p.body[i];
+        const double z    = body.position[2];
+        if (ends.exists() || (z > section.lower - reach && z < section.upper + reach))
+          result.push_back({body.position, body.radius});
       }
-    const auto all_centers = dealii::Utilities::MPI::all_gather(dem.communicator(), mine);
-    const auto all_radii = dealii::Utilities::MPI::all_gather(dem.communicator(), radii);
-    for (std::size_t rank = 0; rank < all_centers.size(); ++rank)
-      for (std::size_t k = 0; k < all_centers[rank].size(); ++k)
+    const std::size_t n = ends.exists() ? result.size() : 0;
+    for (const double shift : {ends.length(), -ends.length()})
+      for (std::size_t k = 0; k < n; ++k)
         {
-          places.add_obstacle(all_centers[rank][k], all_radii[rank][k]);
-          add_images(places, all_centers[rank][k], all_radii[rank][k]);
+          result.push_back(result[k]);
+          result.back().position[2] += shift;
         }
+    return result;
+  }
+
+  std::optional<dealii::BoundingBox<3>>
+  RandomInsertion::box_around(const std::vector<NewParticle> &obstacles) const
+  {
+    auto box = dem.ranks().own_box();
+    for (const NewParticle &obstacle : obstacles)
+      {
+        const dealii::BoundingBox<3> around(
+          std::make_pair(obstacle.position, obstacle.position));
+        if (box)
+          box->merge_with(around);
+        else
+          box = around;
+      }
+    return box;
   }
 
   RandomInsertion::Added
   RandomInsertion::fill(const Request &request)
   {
+    const auto   known = obstacles(request.section);
     RandomPlaces places(dem.cylinder(),
                         dem.vessel(),
                         request.section.lower,
                         request.section.upper,
                         dem.parameters().largest_radius(),
-                        gap);
-    add_obstacles(places, request.section);
-    const auto types  = dem.parameters().types();
-    const auto random = [this]() { return next_random(); };
+                        gap,
+                        box_around(known),
+                        generator,
+                        dem.communicator());
+    for (const NewParticle &obstacle : known)
+      places.add_obstacle(obstacle.position, obstacle.radius);
+    const auto types = dem.parameters().types();
 
-    Added                    result;
-    std::vector<NewParticle> added;
-    double                   solid = 0.;
+    Added      result;
+    Dem::Batch batch(dem);
+    double     solid = 0.;
     result.by_type.assign(types.size(), 0);
-    while (added.size() < request.number && solid < request.solid_volume)
+    while (result.number < request.number && solid < request.solid_volume)
       {
-        NewParticle  particle = next_particle();
+        NewParticle  particle = next_particle(places);
         const double volume   = sphere_volume(particle.radius);
         const double mass     = types[particle.type].density * volume;
         if (result.mass + mass > request.mass)
@@ -113,7 +125,7 @@ namespace graupel
             is_drawn = true;
             break;
           }
-        if (!places.place(particle.radius, request.n_tries, random, particle.position))
+        if (!places.place(particle.radius, request.n_tries, particle.position))
           {
             result.no_room = true;
             break;
@@ -123,12 +135,13 @@ namespace graupel
         add_images(places, particle.position, particle.radius);
         solid += volume;
         result.mass += mass;
+        ++result.number;
         ++result.by_type[particle.type];
-        added.push_back(particle);
+        batch.add(particle);
       }
-    result.number = added.size();
-    if (!added.empty())
-      dem.insert(added);
+    places.give_back();
+    if (result.number > 0)
+      dem.insert(batch);
     return result;
   }
 

@@ -1,67 +1,109 @@
 #include <graupel/dem/packing/random_places.h>
 
+#include <deal.II/base/mpi.h>
 #include <deal.II/base/numbers.h>
 
 namespace graupel
 {
-  RandomPlaces::RandomPlaces(const Cylinder          &cylinder,
-                             const std::vector<Wall> &walls,
-                             const double             lower,
-                             const double             upper,
-                             const double             largest_radius,
-                             const double             gap)
+  namespace
+  {
+    // Places that are drawn at a time: at first few, as they may be for one sphere only.
+    constexpr std::size_t fewest_tries = 8, most_tries = 4096;
+
+    // Of the random numbers.
+    constexpr unsigned int numbers_a_try = 3;
+  } // namespace
+
+  RandomPlaces::RandomPlaces(const Cylinder                              &cylinder,
+                             const std::vector<Wall>                     &walls,
+                             const double                                 lower,
+                             const double                                 upper,
+                             const double                                 largest_radius,
+                             const double                                 gap,
+                             const std::optional<dealii::BoundingBox<3>> &own,
+                             std::mt19937_64                             &generator,
+                             MPI_Comm                                     communicator)
     : walls(walls)
     , tube(cylinder.diameter / 2.)
     , lower(lower)
     , upper(upper)
     , gap(gap)
     , bin_size(2. * (1. + gap) * largest_radius)
+    , generator(generator)
+    , communicator(communicator)
+    , n_next(fewest_tries)
   {
-    n_bins[0] = n_bins[1] = static_cast<int>(std::ceil(2. * tube / bin_size));
-    // A bin more at each end, for obstacles that reach in.
-    n_bins[2] = static_cast<int>(std::ceil((upper - lower) / bin_size)) + 2;
-    bins.resize(static_cast<std::size_t>(n_bins[0]) * n_bins[1] * n_bins[2]);
+    if (!own)
+      return;
+    // A bin more on all sides, for what is placed beside.
+    auto [low, high] = own->get_boundary_points();
+    low[2]           = std::max(low[2], lower);
+    high[2]          = std::min(high[2], upper);
+    const Bin   last = bin(high);
+    std::size_t n    = 1;
+    first_bin        = bin(low);
+    for (unsigned int d = 0; d < 3; ++d)
+      {
+        n_bins[d] = std::max(0, last[d] - first_bin[d] + 3);
+        --first_bin[d];
+        n *= n_bins[d];
+      }
+    bins.resize(n);
   }
 
-  std::array<int, 3>
+  RandomPlaces::Bin
   RandomPlaces::bin(const dealii::Point<3> &x) const
   {
-    const double       from[3] = {-tube, -tube, lower - bin_size};
-    std::array<int, 3> b;
+    Bin b;
     for (unsigned int d = 0; d < 3; ++d)
-      b[d] = std::clamp(
-        static_cast<int>(std::floor((x[d] - from[d]) / bin_size)), 0, n_bins[d] - 1);
+      b[d] = static_cast<int>(std::floor(x[d] / bin_size));
     return b;
   }
 
-  std::size_t
-  RandomPlaces::number(const int x, const int y, const int z) const
+  bool
+  RandomPlaces::is_known(const Bin &b) const
   {
-    return (static_cast<std::size_t>(z) * n_bins[1] + y) * n_bins[0] + x;
+    for (unsigned int d = 0; d < 3; ++d)
+      if (b[d] < first_bin[d] || b[d] >= first_bin[d] + n_bins[d])
+        return false;
+    return true;
+  }
+
+  std::size_t
+  RandomPlaces::number(const Bin &b) const
+  {
+    const auto at = [&](const unsigned int d) {
+      return static_cast<std::size_t>(b[d] - first_bin[d]);
+    };
+    return (at(2) * n_bins[1] + at(1)) * n_bins[0] + at(0);
   }
 
   void
   RandomPlaces::add_obstacle(const dealii::Point<3> &center, const double radius)
   {
-    if (center[2] < lower - bin_size || center[2] > upper + bin_size)
-      return;
-    const auto [x, y, z] = bin(center);
-    bins[number(x, y, z)].push_back({center, radius});
+    const Bin at = bin(center);
+    if (is_known(at))
+      bins[number(at)].push_back({center, radius});
+    if (n_tried < tries.size())
+      placed[at].push_back({center, radius});
   }
 
+  template <class Others>
   bool
-  RandomPlaces::is_free(const dealii::Point<3> &center, const double radius) const
+  RandomPlaces::keeps_distance(const Sphere &sphere, const Others &others) const
   {
-    const auto [x, y, z] = bin(center);
-    for (int c = std::max(z - 1, 0); c <= std::min(z + 1, n_bins[2] - 1); ++c)
-      for (int b = std::max(y - 1, 0); b <= std::min(y + 1, n_bins[1] - 1); ++b)
-        for (int a = std::max(x - 1, 0); a <= std::min(x + 1, n_bins[0] - 1); ++a)
-          for (const auto &other : bins[number(a, b, c)])
-            {
-              const double clearance = (1. + gap) * (radius + other.radius);
-              if (other.center.distance_square(center) < clearance * clearance)
-                return false;
-            }
+    const Bin at = bin(sphere.center);
+    Bin       b;
+    for (b[2] = at[2] - 1; b[2] <= at[2] + 1; ++b[2])
+      for (b[1] = at[1] - 1; b[1] <= at[1] + 1; ++b[1])
+        for (b[0] = at[0] - 1; b[0] <= at[0] + 1; ++b[0])
+          if (const std::vector<Sphere> *in_bin = others(b))
+            for (const Sphere &other : *in_bin)
+              {
+                const double clearance = (1. + gap) * (sphere.radius + other.radius);
+                if (other.center.distance_square(sphere.center) < clearance * clearance)
+                  return false;
+              }
     return true;
   }
 
@@ -74,23 +116,73 @@ namespace graupel
     return true;
   }
 
-  bool
-  RandomPlaces::place(const double                   radius,
-                      const unsigned int             n_tries,
-                      const std::function<double()> &random,
-                      dealii::Point<3>              &center)
+  void
+  RandomPlaces::draw(const double radius)
   {
+    before  = generator;
+    n_tried = 0;
+    placed.clear();
+    tries.resize(n_next);
+    n_next = std::min(2 * n_next, most_tries);
+
     const double room  = (1. + gap) * radius;
     const double reach = tube - room;
-    if (reach < 0. || upper - lower < 2. * room)
+    const auto   known = [this](const Bin &b) {
+      return is_known(b) ? &bins[number(b)] : nullptr;
+    };
+    std::vector<unsigned char> is_taken;
+    for (Try &now : tries)
+      {
+        const double rho   = reach * std::sqrt(next_random(generator));
+        const double angle = 2. * dealii::numbers::PI * next_random(generator);
+        const double z =
+          lower + room + (upper - lower - 2. * room) * next_random(generator);
+        now.center = dealii::Point<3>(rho * std::cos(angle), rho * std::sin(angle), z);
+        is_taken.push_back(!keeps_distance({now.center, radius}, known));
+      }
+    const int ierr = MPI_Allreduce(MPI_IN_PLACE,
+                                   is_taken.data(),
+                                   is_taken.size(),
+                                   MPI_UNSIGNED_CHAR,
+                                   MPI_MAX,
+                                   communicator);
+    AssertThrowMPI(ierr);
+    for (std::size_t k = 0; k < tries.size(); ++k)
+      tries[k].is_free = !is_taken[k] && is_inside(tries[k].center, room);
+  }
+
+  void
+  RandomPlaces::give_back()
+  {
+    if (!tries.empty())
+      {
+        generator = before;
+        generator.discard(numbers_a_try * n_tried);
+      }
+    tries.clear();
+    n_tried = 0;
+    n_next  = fewest_tries;
+  }
+
+  bool
+  RandomPlaces::place(const double       radius,
+                      const unsigned int n_tries,
+                      dealii::Point<3>  &center)
+  {
+    const double room = (1. + gap) * radius;
+    if (tube < room || upper - lower < 2. * room)
       return false;
+    const auto since = [this](const Bin &b) {
+      const auto in_bin = placed.find(b);
+      return in_bin == placed.end() ? nullptr : &in_bin->second;
+    };
     for (unsigned int attempt = 0; attempt < n_tries; ++attempt)
       {
-        const double rho   = reach * std::sqrt(random());
-        const double angle = 2. * dealii::numbers::PI * random();
-        const double z     = lower + room + (upper - lower - 2. * room) * random();
-        center = dealii::Point<3>(rho * std::cos(angle), rho * std::sin(angle), z);
-        if (is_inside(center, room) && is_free(center, radius))
+        if (n_tried == tries.size())
+          draw(radius);
+        const Try &now = tries[n_tried++];
+        center         = now.center;
+        if (now.is_free && keeps_distance({center, radius}, since))
           {
             add_obstacle(center, radius);
             return true;

@@ -87,16 +87,17 @@ namespace graupel
     }
   } // namespace
 
-  std::vector<NewParticle>
+  void
   read_particle_list(const std::string                                     &file,
                      const unsigned int                                     n_types,
+                     const std::function<void(const NewParticle &)>        &take,
                      const std::function<std::string(const NewParticle &)> &problem_of)
   {
     std::ifstream stream(file);
     require(static_cast<bool>(stream), "Filling/file", file + " cannot be opened");
 
     std::vector<std::string> columns;
-    std::vector<NewParticle> particles;
+    bool                     is_empty = true;
     std::string              text;
     for (unsigned int line = 1; std::getline(stream, text); ++line)
       {
@@ -110,11 +111,12 @@ namespace graupel
             check_header(columns, file, line);
             continue;
           }
-        particles.push_back(read_row(entries, columns, n_types, file, line));
-        const auto problem = problem_of ? problem_of(particles.back()) : std::string();
+        const auto particle = read_row(entries, columns, n_types, file, line);
+        const auto problem  = problem_of ? problem_of(particle) : std::string();
         check(problem.empty(), file, line, problem);
+        take(particle);
+        is_empty = false;
       }
-    require(!particles.empty(), "Filling/file", file + " holds no particles");
-    return particles;
+    require(!is_empty, "Filling/file", file + " holds no particles");
   }
 } // namespace graupel

@@ -205,7 +205,7 @@ namespace graupel
     std::int64_t number = next_id;
     for (const NewParticle &particle : added)
       number = std::max(number, particle.id + 1);
-    number_from(mpi::max(number, communicator()));
+    number_from(number);
     n_expected += mpi::sum(static_cast<unsigned int>(added.size()), communicator());
   }
 
@@ -253,6 +253,26 @@ namespace graupel
         unpack(passengers[k].parcel, p, first + k);
       }
     label_of_row.resize(p.n_owned, no_row);
+  }
+
+  void
+  ParticleStore::begin_with(ParticleArrays               &particles,
+                            const std::vector<Passenger> &passengers,
+                            const std::int64_t            next_number)
+  {
+    accept(particles, passengers);
+    std::int64_t number = next_number;
+    for (const Passenger &passenger : passengers)
+      number = std::max(number, passenger.id + 1);
+    number_from(number);
+    n_expected = mpi::sum(particles.n_owned, communicator());
+  }
+
+  void
+  ParticleStore::number_from(const std::int64_t number)
+  {
+    next_id = static_cast<unsigned int>(
+      mpi::max(std::max(number, next_number()), communicator()));
   }
 
   void

@@ -60,6 +60,7 @@ namespace graupel
   void
   Subdomains::update()
   {
+    find_box();
     known.clear();
     claims.clear();
     own_receivers.clear();
@@ -113,6 +114,17 @@ namespace graupel
       for (Bin y = low[1]; y <= high[1]; ++y)
         for (Bin x = low[0]; x <= high[0]; ++x)
           visit((z * n_bins[1] + y) * n_bins[0] + x);
+  }
+
+  void
+  Subdomains::find_box()
+  {
+    box.reset();
+    for (const auto &cell : mesh.owned_cells())
+      if (box)
+        box->merge_with(box_of(cell));
+      else
+        box = box_of(cell);
   }
 
   Subdomains::Bins

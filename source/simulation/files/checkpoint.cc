@@ -2,6 +2,7 @@
 #include <graupel/base/parameters.h>
 #include <graupel/simulation/files/checkpoint.h>
 #include <graupel/simulation/files/may_change.h>
+#include <graupel/simulation/files/particle_records.h>
 
 #include <boost/archive/binary_iarchive.hpp>
 #include <boost/archive/binary_oarchive.hpp>
@@ -89,6 +90,7 @@ namespace graupel
 
     const char *const another_version =
       " was written by another version of the program and cannot be read";
+    const char *const damaged = " is cut off or damaged";
   } // namespace
 
   std::string
@@ -110,16 +112,18 @@ namespace graupel
       {
         fs::remove_all(unfinished);
         fs::create_directory(unfinished);
-        write_file(unfinished + "/state.bin", [&](std::ostream &stream) {
-          boost::archive::binary_oarchive archive(stream);
-          const std::string               version = GRAUPEL_VERSION;
-          archive << version;
-          RunState copy(state);
-          exchange(archive, copy);
-          archive << particles;
-        });
       }
     MPI_Barrier(communicator);
+    std::ostringstream head;
+    {
+      boost::archive::binary_oarchive archive(head);
+      const std::string               version = GRAUPEL_VERSION;
+      archive << version;
+      RunState copy(state);
+      exchange(archive, copy);
+      archive << particles.common;
+    }
+    write_particles(unfinished + "/state.bin", head.str(), particles, communicator);
     write_more(checkpoint_fields(unfinished));
     MPI_Barrier(communicator);
     if (is_writer)
@@ -147,7 +151,8 @@ namespace graupel
   std::pair<RunState, DemState>
   read_checkpoint(const std::string        &folder,
                   const RunParameters      &parameters,
-                  std::vector<std::string> &changes)
+                  std::vector<std::string> &changes,
+                  MPI_Comm                  communicator)
   {
     const std::string             file = folder + "/state.bin";
     std::ifstream                 stream(file, std::ios::binary);
@@ -162,12 +167,15 @@ namespace graupel
         boost::archive::binary_iarchive archive(stream);
         require(check_version(archive), "Output/directory", file + another_version);
         exchange(archive, result.first);
-        archive >> result.second;
+        archive >> result.second.common;
       }
     catch (const boost::archive::archive_exception &)
       {
-        throw InputError("Output/directory", file + " is cut off or damaged");
+        throw InputError("Output/directory", file + damaged);
       }
+    require(read_particles(stream, result.second, communicator),
+            "Output/directory",
+            file + damaged);
     changes = check_changes(parameters.texts,
                             result.first.parameters,
                             result.first.phase.empty() ? Standing::between_phases
@@ -179,17 +187,22 @@ namespace graupel
   void
   write_bed(const std::string   &file,
             const RunParameters &parameters,
-            const DemState      &particles)
+            const DemState      &particles,
+            MPI_Comm             communicator)
   {
-    write_file(file, [&](std::ostream &stream) {
-      boost::archive::binary_oarchive archive(stream);
+    std::ostringstream head;
+    {
+      boost::archive::binary_oarchive archive(head);
       const std::string               version = GRAUPEL_VERSION;
-      archive << version << parameters.texts << particles;
-    });
+      archive << version << parameters.texts << particles.common;
+    }
+    write_particles(file, head.str(), particles, communicator);
   }
 
   DemState
-  read_bed(const std::string &file, const RunParameters &parameters)
+  read_bed(const std::string   &file,
+           const RunParameters &parameters,
+           MPI_Comm             communicator)
   {
     const std::string parameter = "Filling/start from";
     std::ifstream     stream(file, std::ios::binary);
@@ -203,12 +216,13 @@ namespace graupel
       {
         boost::archive::binary_iarchive archive(stream);
         require(check_version(archive), parameter, file + another_version);
-        archive >> there >> result;
+        archive >> there >> result.common;
       }
     catch (const boost::archive::archive_exception &)
       {
-        throw InputError(parameter, file + " is cut off or damaged");
+        throw InputError(parameter, file + damaged);
       }
+    require(read_particles(stream, result, communicator), parameter, file + damaged);
     check_changes(parameters.texts, there, Standing::settled_bed, "the bed " + file);
     return result;
   }

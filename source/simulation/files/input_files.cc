@@ -16,6 +16,6 @@ namespace graupel
     if (parameters.sweep.has_fluid())
       parameters.flow.boundaries.by_id(mesh.boundaries());
     if (!parameters.filling.start_from.empty())
-      read_bed(parameters.filling.start_from + "/bed.bin", parameters);
+      read_bed(parameters.filling.start_from + "/bed.bin", parameters, MPI_COMM_WORLD);
   }
 } // namespace graupel

@@ -42,12 +42,14 @@ namespace graupel
     void check(const Cylinder &cylinder, const DemParameters &particles) const;
 
     /**
-     * The particles of the method list. Throws InputError, with the line, for what cannot
-     * be read, has no size of its type, or lies beyond one of the @p vessel's walls.
+     * Gives each particle of the method list to @p take. Throws InputError, with the
+     * line, for what cannot be read, has no size of its type, or lies beyond one of the
+     * @p vessel's walls.
      */
-    std::vector<NewParticle> read_list(const Cylinder          &cylinder,
-                                       const DemParameters     &particles,
-                                       const std::vector<Wall> &vessel) const;
+    void read_list(const Cylinder                                 &cylinder,
+                   const DemParameters                            &particles,
+                   const std::vector<Wall>                        &vessel,
+                   const std::function<void(const NewParticle &)> &take) const;
 
   private:
     void check_method(const Cylinder &cylinder, const DemParameters &particles) const;
@@ -141,6 +143,7 @@ namespace graupel
     double        mass_put_in() const;
     unsigned int  n_missing() const;
     void          fill_at_once();
+    void          fill_from_list();
     // Particles that have fallen due at the rate and are not in.
     unsigned int n_due() const;
     void         rain_by_rate();

@@ -103,9 +103,12 @@ namespace graupel
     const ParticleSource source;
 
   private:
-    double      next_random();
-    NewParticle next_particle();
-    void        add_obstacles(RandomPlaces &places, const Section &section) const;
+    NewParticle next_particle(RandomPlaces &places);
+    // Own spheres in and near the section, with their images through periodic ends.
+    std::vector<NewParticle> obstacles(const Section &section) const;
+    // Around these and own cells.
+    std::optional<dealii::BoundingBox<3>> box_around(
+      const std::vector<NewParticle> &obstacles) const;
     // What a sphere is through the ends of a periodic vessel.
     void add_images(RandomPlaces           &places,
                     const dealii::Point<3> &center,

@@ -10,15 +10,16 @@
 namespace graupel
 {
   /**
-   * Reads particles from a CSV file. The first line names the columns, in any
-   * order: x, y, z, diameter (of the simulated particle) [m], and if wanted vx, vy,
-   * vz [m/s], wx, wy, wz [rad/s], type (1 to @p n_types). Empty lines and what
-   * follows a # are left out. Throws InputError, with the number of the line; also for
-   * a particle of which @p problem_of tells a problem, where that is given.
+   * Reads particles from a CSV file and gives each to @p take. The first line names the
+   * columns, in any order: x, y, z, diameter (of the simulated particle) [m], and if
+   * wanted vx, vy, vz [m/s], wx, wy, wz [rad/s], type (1 to @p n_types). Empty lines and
+   * what follows a # are left out. Throws InputError, with the number of the line; also
+   * for a particle of which @p problem_of tells a problem, where that is given.
    */
-  std::vector<NewParticle> read_particle_list(
+  void read_particle_list(
     const std::string                                     &file,
     const unsigned int                                     n_types,
+    const std::function<void(const NewParticle &)>        &take,
     const std::function<std::string(const NewParticle &)> &problem_of = {});
 } // namespace graupel
 

@@ -78,6 +78,13 @@ namespace graupel
      */
     void accept(ParticleArrays &particles, const std::vector<Passenger> &passengers);
 
+    /** After clear(): puts @p passengers, of all ranks each one once, into @p particles,
+     * wherever they are; the next migration brings them to where they belong. The next
+     * particle gets the number @p next_number, or a higher one. Collective. */
+    void begin_with(ParticleArrays               &particles,
+                    const std::vector<Passenger> &passengers,
+                    const std::int64_t            next_number);
+
     /** The contacts of some own rows, given to a migration to go with them. */
     using ContactsOf =
       std::function<std::vector<LooseContact>(const std::vector<std::uint32_t> &rows)>;
@@ -147,14 +154,6 @@ namespace graupel
       return next_id;
     }
 
-    /** Gives the next particles ids from @p number on, or from a higher one where lower
-     * ones are taken already. */
-    void
-    number_from(const std::int64_t number)
-    {
-      next_id = std::max(next_id, static_cast<unsigned int>(number));
-    }
-
     MPI_Comm
     communicator() const
     {
@@ -201,7 +200,9 @@ namespace graupel
                   const ContactsOf &contacts_of,
                   const bool        from_neighbors);
     void  bring_home_strays();
-    void  check_count();
+    // Gives the next particles ids from a number on, of all ranks the highest.
+    void number_from(const std::int64_t number);
+    void check_count();
 
     struct CellRows
     {

@@ -5,6 +5,7 @@
 #include <graupel/mesh/vessel_mesh.h>
 
 #include <cstdint>
+#include <optional>
 #include <tuple>
 #include <unordered_map>
 #include <vector>
@@ -105,6 +106,13 @@ namespace graupel
     std::vector<std::vector<unsigned int>> ranks_at(
       const std::vector<dealii::Point<3>> &points) const;
 
+    /** A box around all own cells; none without cells. */
+    const std::optional<dealii::BoundingBox<3>> &
+    own_box() const
+    {
+      return box;
+    }
+
     /** The rank that is asked of the bin of @p x: the same on all ranks. */
     unsigned int keeper(const dealii::Point<3> &x) const;
 
@@ -130,6 +138,7 @@ namespace graupel
     Bin          coordinate(const double x, const unsigned int d) const;
     unsigned int keeper(const Bin bin) const;
     Bins         home() const;
+    void         find_box();
     template <class Visit>
     void               visit_box(const std::array<Bin, 3> &low,
                                  const std::array<Bin, 3> &high,
@@ -150,6 +159,7 @@ namespace graupel
     double              size; // of a bin [m]
     std::array<Bin, 3>  n_bins;
 
+    std::optional<dealii::BoundingBox<3>> box;
     std::unordered_map<Bin, Surroundings> known;
     std::vector<Neighbor>                 own_receivers, own_senders;
     // Of the bins that this rank keeps, in their order.

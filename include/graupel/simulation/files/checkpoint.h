@@ -41,10 +41,10 @@ namespace graupel
   };
 
   /**
-   * Writes the checkpoint @p folder in place of the last one: @p state and @p particles
-   * (both as rank 0 has them) and whatever @p write_more puts into files whose names
-   * begin with its argument. The last checkpoint stays until the new one is whole.
-   * Collective.
+   * Writes the checkpoint @p folder in place of the last one: @p state (as rank 0 has
+   * it), the @p particles of all ranks (see write_particles()) and whatever @p write_more
+   * puts into files whose names begin with its argument. The last checkpoint stays until
+   * the new one is whole. Collective.
    */
   void write_checkpoint(const std::string                              &folder,
                         const RunState                                 &state,
@@ -60,22 +60,28 @@ namespace graupel
   std::string checkpoint_fields(const std::string &folder);
 
   /**
-   * Reads a checkpoint on every rank. Throws InputError("Output/directory", ...) without
-   * one, and InputError naming the parameter where a value differs that a resumed run may
-   * not change (may_change()). What has changed and may is told in @p changes.
+   * Reads a checkpoint, each rank a share of the particles. Throws
+   * InputError("Output/directory", ...) without one, and InputError naming the parameter
+   * where a value differs that a resumed run may not change (may_change()). What has
+   * changed and may is told in @p changes.
    */
   std::pair<RunState, DemState> read_checkpoint(const std::string        &folder,
                                                 const RunParameters      &parameters,
-                                                std::vector<std::string> &changes);
+                                                std::vector<std::string> &changes,
+                                                MPI_Comm                  communicator);
 
-  /** Writes a settled bed to @p file, on the rank that calls. */
+  /** Writes a settled bed to @p file. Collective. */
   void write_bed(const std::string   &file,
                  const RunParameters &parameters,
-                 const DemState      &particles);
+                 const DemState      &particles,
+                 MPI_Comm             communicator);
 
-  /** Reads it. Throws InputError("Filling/start from", ...) where there is none, and
-   * InputError naming the parameter where it is another vessel's or other particles. */
-  DemState read_bed(const std::string &file, const RunParameters &parameters);
+  /** Reads it, each rank a share of the particles. Throws InputError("Filling/start
+   * from", ...) where there is none, and InputError naming the parameter where it is
+   * another vessel's or other particles. */
+  DemState read_bed(const std::string   &file,
+                    const RunParameters &parameters,
+                    MPI_Comm             communicator);
 } // namespace graupel
 
 #endif

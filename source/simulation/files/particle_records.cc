@@ -1,0 +1,118 @@
+#include <graupel/base/files.h>
+#include <graupel/simulation/files/particle_records.h>
+
+#include <limits>
+
+namespace graupel
+{
+  namespace
+  {
+    namespace mpi = dealii::Utilities::MPI;
+
+    using Particle = DemState::Particle;
+    static_assert(std::is_trivially_copyable_v<Particle>);
+    static_assert(std::is_trivially_copyable_v<LooseContact>);
+
+    struct Numbers
+    {
+      std::int64_t particles = 0, contacts = 0;
+    };
+
+    // The sum of the numbers on the lower ranks.
+    Numbers
+    on_lower_ranks(const Numbers &mine, MPI_Comm communicator)
+    {
+      Numbers   below;
+      const int ierr = MPI_Exscan(&mine, &below, 2, MPI_INT64_T, MPI_SUM, communicator);
+      AssertThrowMPI(ierr);
+      return mpi::this_mpi_process(communicator) == 0 ? Numbers() : below;
+    }
+
+    template <class Record>
+    std::string_view
+    bytes(const Record *records, const std::size_t n)
+    {
+      return {reinterpret_cast<const char *>(records), n * sizeof(Record)};
+    }
+
+    // The n-th of so many even shares begins here.
+    std::int64_t
+    begin_of_share(const std::int64_t n, const std::int64_t all, MPI_Comm communicator)
+    {
+      const std::int64_t n_ranks = mpi::n_mpi_processes(communicator);
+      return all / n_ranks * n + std::min(n, all % n_ranks);
+    }
+
+    template <class Record>
+    void
+    read(std::istream &stream, const std::int64_t at, std::vector<Record> &records)
+    {
+      stream.seekg(at);
+      stream.read(reinterpret_cast<char *>(records.data()),
+                  records.size() * sizeof(Record));
+    }
+  } // namespace
+
+  void
+  write_particles(const std::string &file,
+                  const std::string &head,
+                  const DemState    &state,
+                  MPI_Comm           communicator)
+  {
+    const Numbers      mine{static_cast<std::int64_t>(state.particles.size()),
+                       static_cast<std::int64_t>(state.contacts.size())};
+    const Numbers      below = on_lower_ranks(mine, communicator);
+    const Numbers      all{mpi::sum(mine.particles, communicator),
+                      mpi::sum(mine.contacts, communicator)};
+    const std::int64_t length =
+      mpi::broadcast(communicator, static_cast<std::int64_t>(head.size()), 0);
+
+    auto particles = state.particles;
+    for (Particle &particle : particles)
+      particle.first_contact += below.contacts;
+
+    const std::uint64_t   of_particles = length + sizeof(Numbers);
+    const std::uint64_t   of_contacts  = of_particles + all.particles * sizeof(Particle);
+    std::vector<FilePart> parts{{of_particles + below.particles * sizeof(Particle),
+                                 bytes(particles.data(), particles.size())},
+                                {of_contacts + below.contacts * sizeof(LooseContact),
+                                 bytes(state.contacts.data(), state.contacts.size())}};
+    if (mpi::this_mpi_process(communicator) == 0)
+      {
+        parts.push_back({0, head});
+        parts.push_back({static_cast<std::uint64_t>(length), bytes(&all, 1)});
+      }
+    write_file(file, parts, communicator);
+  }
+
+  bool
+  read_particles(std::istream &stream, DemState &state, MPI_Comm communicator)
+  {
+    Numbers all;
+    stream.read(reinterpret_cast<char *>(&all), sizeof(all));
+    const std::int64_t of_particles = stream.tellg();
+    const std::int64_t of_contacts  = of_particles + all.particles * sizeof(Particle);
+    const std::int64_t end          = of_contacts + all.contacts * sizeof(LooseContact);
+    stream.seekg(0, std::ios::end);
+    if (!stream || stream.tellg() != end)
+      return false;
+
+    const std::int64_t rank  = mpi::this_mpi_process(communicator);
+    const std::int64_t first = begin_of_share(rank, all.particles, communicator);
+    const std::int64_t last  = begin_of_share(rank + 1, all.particles, communicator);
+    // With the one behind, which tells where the contacts of the last one end.
+    std::vector<Particle> &particles = state.particles;
+    particles.resize(std::min(last + 1, all.particles) - first);
+    read(stream, of_particles + first * sizeof(Particle), particles);
+    const std::int64_t first_contact =
+      particles.empty() ? all.contacts : particles.front().first_contact;
+    const std::int64_t end_of_contacts =
+      last < all.particles ? particles.back().first_contact : all.contacts;
+    particles.resize(last - first);
+    for (Particle &particle : particles)
+      particle.first_contact -= first_contact;
+    state.contacts.resize(end_of_contacts - first_contact);
+    read(stream, of_contacts + first_contact * sizeof(LooseContact), state.contacts);
+    return static_cast<bool>(stream);
+  }
+} // namespace graupel
