@@ -36,6 +36,48 @@ namespace graupel
       dealii::FullMatrix<double> matrix;
       dealii::Vector<double>     rhs;
     };
+    // Adds the blocks of the node a's row to what block(a, b) points to.
+    template <typename Block>
+    void
+    add_row(NodesSystem       &system,
+            const unsigned int a,
+            const unsigned int n_nodes,
+            const Block       &block)
+    {
+      for (unsigned int b = 0; b < n_nodes; ++b)
+        for (unsigned int j = 0; j < unknowns_per_node; ++j)
+          for (unsigned int i = 0; i < unknowns_per_node; ++i)
+            block(a, b)[unknowns_per_node * j + i] +=
+              system(unknowns_per_node * a + i, unknowns_per_node * b + j);
+    }
+
+    // The same, four columns at a time: they are transposed in registers.
+    template <typename Block>
+    void
+    add_row(const CellSystem  &system,
+            const unsigned int a,
+            const unsigned int /*n_nodes*/,
+            const Block &block)
+    {
+      using Four = double __attribute__((vector_size(32), aligned(8), may_alias));
+      for (unsigned int b = 0; b < nodes_per_cell; b += 4)
+        for (unsigned int j = 0; j < unknowns_per_node; ++j)
+          {
+            Four row[4];
+            for (unsigned int i = 0; i < 4; ++i)
+              row[i] = *reinterpret_cast<const Four *>(&system.matrix[a][i][j][b]);
+            const Four low[2]{__builtin_shufflevector(row[0], row[1], 0, 4, 2, 6),
+                              __builtin_shufflevector(row[2], row[3], 0, 4, 2, 6)},
+              high[2]{__builtin_shufflevector(row[0], row[1], 1, 5, 3, 7),
+                      __builtin_shufflevector(row[2], row[3], 1, 5, 3, 7)};
+            const Four column[4]{__builtin_shufflevector(low[0], low[1], 0, 1, 4, 5),
+                                 __builtin_shufflevector(high[0], high[1], 0, 1, 4, 5),
+                                 __builtin_shufflevector(low[0], low[1], 2, 3, 6, 7),
+                                 __builtin_shufflevector(high[0], high[1], 2, 3, 6, 7)};
+            for (unsigned int i = 0; i < 4; ++i)
+              *reinterpret_cast<Four *>(block(a, b + i) + 4 * j) += column[i];
+          }
+    }
   } // namespace
 
   CellScatter::CellScatter(const FlowSpace                         &space,
@@ -141,15 +183,11 @@ namespace graupel
                        System                   &system,
                        BlockVector              &rhs) const
   {
+    const auto block = [&](const unsigned int a, const unsigned int b) {
+      return matrix.block(places[n_nodes * a + b]);
+    };
     for (unsigned int a = 0; a < n_nodes; ++a)
-      for (unsigned int b = 0; b < n_nodes; ++b)
-        {
-          double *const block = matrix.block(places[n_nodes * a + b]);
-          for (unsigned int j = 0; j < unknowns_per_node; ++j)
-            for (unsigned int i = 0; i < unknowns_per_node; ++i)
-              block[unknowns_per_node * j + i] +=
-                system(unknowns_per_node * a + i, unknowns_per_node * b + j);
-        }
+      add_row(system, a, n_nodes, block);
     for (unsigned int a = 0; a < n_nodes; ++a)
       {
         for (unsigned int i = 0; i < 3; ++i)
@@ -188,7 +226,6 @@ namespace graupel
                 system,
                 rhs);
       }
-    system = CellSystem();
   }
 
   void

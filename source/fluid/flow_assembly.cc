@@ -121,6 +121,7 @@ namespace graupel
       for (const auto &point : space.boundary(inlet.id))
         {
           const double normal_flux = space.normal_component(point, inlet.flux);
+          cell_system              = CellSystem();
           for (unsigned int a = 0; a < nodes_per_cell; ++a)
             cell_system.rhs[3][a] -= point.weight * point.value[a] * normal_flux;
           scatter.add(point.cell, cell_system, rhs);
@@ -165,6 +166,7 @@ namespace graupel
     dealii::Tensor<1, 3> traction;
     for (unsigned int i = 0; i < 3; ++i)
       traction[i] = space.value(point, outlet_traction[i]);
+    cell_system = CellSystem();
     for (unsigned int a = 0; a < nodes_per_cell; ++a)
       {
         const unsigned int row   = unknowns_per_node * a;

@@ -106,8 +106,8 @@ namespace graupel
   FlowSolver::round_off() const
   {
     // Of the sum over all rows of the continuity equation.
-    const double rows = matrix.divergence_norm() * solution.block(0).l1_norm() +
-                        matrix.pressure_norm() * solution.block(1).l1_norm() +
+    const double rows = node_matrix.divergence_norm() * solution.block(0).l1_norm() +
+                        node_matrix.pressure_norm() * solution.block(1).l1_norm() +
                         rhs.block(1).l1_norm();
     return std::numeric_limits<double>::epsilon() * rows;
   }

@@ -160,17 +160,6 @@ namespace graupel
   FlowMatrix::compress()
   {
     values.compress(dealii::VectorOperation::add);
-    continuity_norms = {};
-    for (unsigned int row = 0; row < n_rows(); ++row)
-      {
-        FourDoubles sums = 0.; // by column
-        for (unsigned int k = row_starts[row]; k < row_starts[row + 1]; ++k)
-          sums += abs(FourDoubles([&](const auto j) { return block(k)[4 * j + 3]; }));
-        continuity_norms[0] = std::max(continuity_norms[0], sums[0] + sums[1] + sums[2]);
-        continuity_norms[1] = std::max<double>(continuity_norms[1], sums[3]);
-      }
-    for (double &norm : continuity_norms)
-      norm = dealii::Utilities::MPI::max(norm, nodes->get_mpi_communicator());
   }
 
   void

@@ -65,7 +65,9 @@ namespace graupel
   }
 
   void
-  FluxFactors::solve(NodeBlockVector &x) const
+  FluxFactors::solve(NodeBlockVector       &x,
+                     const NodeBlockVector &b,
+                     const NodeBlockVector &known) const
   {
     float *const solution = x.begin();
     // Four sums side by side, as the processor can begin the next before the last ends.
@@ -84,7 +86,8 @@ namespace graupel
       };
     for (unsigned int row = 0; row < rows.size(); ++row)
       {
-        NodeUnknowns sum = unknowns_of(solution, row);
+        NodeUnknowns sum = unknowns_of(b.begin(), row) - unknowns_of(known.begin(), row);
+        sum[3]           = solution[4 * row + 3];
         subtract(sum, rows[row].begin, rows[row].diagonal);
         sum.copy_to(solution + 4 * row, std::experimental::element_aligned);
       }

@@ -7,9 +7,9 @@ namespace graupel
   NodeBlockMatrix::NodeBlockMatrix(const FlowMatrix &original)
     : original(original)
     , partitioner(std::make_shared<const dealii::Utilities::MPI::Partitioner>(
-        unknowns_of_nodes(original.partitioner().locally_owned_range(), 4),
-        unknowns_of_nodes(original.partitioner().ghost_indices(), 4),
-        original.partitioner().get_mpi_communicator()))
+        unknowns_of_nodes(original.partitioner()->locally_owned_range(), 4),
+        unknowns_of_nodes(original.partitioner()->ghost_indices(), 4),
+        original.partitioner()->get_mpi_communicator()))
     , flux_columns(12 * original.columns().size())
     , pressure_columns(4 * original.columns().size())
   {
@@ -18,12 +18,26 @@ namespace graupel
   void
   NodeBlockMatrix::take()
   {
-    for (unsigned int k = 0; k < columns().size(); ++k)
+    continuity_norms   = {};
+    const auto &starts = rows();
+    for (unsigned int row = 0; row < n_rows(); ++row)
       {
-        const double *const block = original.block(k);
-        std::copy(block, block + 12, &flux_columns[12 * k]);
-        std::copy(block + 12, block + 16, &pressure_columns[4 * k]);
+        std::array<float, 2> sums{};
+        for (unsigned int k = starts[row]; k < starts[row + 1]; ++k)
+          {
+            const double *const block = original.block(k);
+            float *const flux         = &flux_columns[12 * k], *const pressure =
+                                                         &pressure_columns[4 * k];
+            std::copy(block, block + 12, flux);
+            std::copy(block + 12, block + 16, pressure);
+            sums[0] += std::abs(flux[3]) + std::abs(flux[7]) + std::abs(flux[11]);
+            sums[1] += std::abs(pressure[3]);
+          }
+        for (unsigned int i = 0; i < 2; ++i)
+          continuity_norms[i] = std::max<double>(continuity_norms[i], sums[i]);
       }
+    for (double &norm : continuity_norms)
+      norm = dealii::Utilities::MPI::max(norm, nodes()->get_mpi_communicator());
   }
 
   void
@@ -33,47 +47,48 @@ namespace graupel
   }
 
   void
-  NodeBlockMatrix::vmult(NodeBlockVector &dst, const NodeBlockVector &src) const
+  NodeBlockMatrix::multiply_pressure(NodeBlockVector       &product,
+                                     const NodeBlockVector &x) const
   {
-    src.update_ghost_values();
+    x.update_ghost_values();
     const auto        &starts = rows(), &nodes = columns();
-    const float *const from = src.begin();
-    const float       *flux = flux_columns.data(), *pressure = pressure_columns.data();
+    const float *const from     = x.begin();
+    const float       *pressure = pressure_columns.data();
     for (unsigned int row = 0; row < n_rows(); ++row)
       {
         NodeUnknowns sum = 0.f, other = 0.f;
-        for (unsigned int k = starts[row]; k < starts[row + 1];
-             ++k, flux += 12, pressure += 4)
+        unsigned int k = starts[row];
+        for (; k + 2 <= starts[row + 1]; k += 2, pressure += 8)
           {
-            const float *const x = from + 4 * nodes[k];
-            sum += unknowns_of(flux, 0) * x[0];
-            other += unknowns_of(flux, 1) * x[1];
-            sum += unknowns_of(flux, 2) * x[2];
-            other += unknowns_of(pressure, 0) * x[3];
+            sum += unknowns_of(pressure, 0) * from[4 * nodes[k] + 3];
+            other += unknowns_of(pressure, 1) * from[4 * nodes[k + 1] + 3];
           }
+        for (; k < starts[row + 1]; ++k, pressure += 4)
+          sum += unknowns_of(pressure, 0) * from[4 * nodes[k] + 3];
         sum += other;
-        sum.copy_to(dst.begin() + 4 * row, std::experimental::element_aligned);
+        sum.copy_to(product.begin() + 4 * row, std::experimental::element_aligned);
       }
-    src.zero_out_ghost_values();
+    x.zero_out_ghost_values();
   }
 
   void
-  NodeBlockMatrix::subtract_gradient(NodeBlockVector       &dst,
-                                     const NodeBlockVector &src) const
+  NodeBlockMatrix::add_flux_product(NodeBlockVector       &product,
+                                    const NodeBlockVector &x) const
   {
-    dst.update_ghost_values();
-    const auto  &starts = rows(), &nodes = columns();
-    float *const into     = dst.begin();
-    const float *pressure = pressure_columns.data();
+    x.update_ghost_values();
+    const auto        &starts = rows(), &nodes = columns();
+    const float *const from = x.begin();
+    const float       *flux = flux_columns.data();
     for (unsigned int row = 0; row < n_rows(); ++row)
       {
-        NodeUnknowns sum = unknowns_of(src.begin(), row);
-        for (unsigned int k = starts[row]; k < starts[row + 1]; ++k, pressure += 4)
-          sum -= unknowns_of(pressure, 0) * into[4 * nodes[k] + 3];
-        sum[3] = into[4 * row + 3];
-        sum.copy_to(into + 4 * row, std::experimental::element_aligned);
+        NodeUnknowns sum[3]{unknowns_of(product.begin(), row), 0.f, 0.f};
+        for (unsigned int k = starts[row]; k < starts[row + 1]; ++k, flux += 12)
+          for (unsigned int i = 0; i < 3; ++i)
+            sum[i] += unknowns_of(flux, i) * from[4 * nodes[k] + i];
+        sum[0] += sum[1] + sum[2];
+        sum[0].copy_to(product.begin() + 4 * row, std::experimental::element_aligned);
       }
-    dst.zero_out_ghost_values();
+    x.zero_out_ghost_values();
   }
 
   void

@@ -18,8 +18,39 @@ namespace graupel
 
     constexpr unsigned int failed = dealii::numbers::invalid_unsigned_int;
 
+    // Of the size of a vector: what may be left of it without its products with the basis
+    // where these need not be taken out twice [-].
+    constexpr double hardly_left = 0.1;
+    // Of the size of the residual: by what it may grow so that its sum over the
+    // continuity equation is 0 [-].
+    constexpr double price_of_balance = 0.9;
+
     // Unknowns that stay in the fastest memory while all vectors pass by.
     constexpr unsigned int chunk = 2048;
+
+    // Of vectors of whole nodes.
+    double
+    product(const float *const x, const float *const y, const unsigned int length)
+    {
+      NodeUnknowns part[4]{0.f, 0.f, 0.f, 0.f};
+      unsigned int k = 0;
+      for (; k + 16 <= length; k += 16)
+        for (unsigned int j = 0; j < 4; ++j)
+          part[j] += unknowns_of(x + k, j) * unknowns_of(y + k, j);
+      for (; k < length; k += 4)
+        part[0] += unknowns_of(x + k, 0) * unknowns_of(y + k, 0);
+      return reduce((part[0] + part[1]) + (part[2] + part[3]));
+    }
+
+    // Over the continuity equation.
+    double
+    sum_of(const float *const x, const unsigned int length)
+    {
+      NodeUnknowns sum = 0.f;
+      for (unsigned int k = 0; k < length; k += 4)
+        sum += unknowns_of(x + k, 0);
+      return sum[3];
+    }
   } // namespace
 
   ResidualMinimizer::ResidualMinimizer(const FlowMatrix          &exact,
@@ -31,6 +62,10 @@ namespace graupel
   {
     system.initialize(residual);
     system.initialize(sum);
+    system.initialize(everywhere);
+    for (unsigned int node = 0; node < system.n_rows(); ++node)
+      if (system.rows()[node + 1] > system.rows()[node] + 1) // it does not hang
+        everywhere.local_element(4 * node + 3) = 1.f;
     // They are referred to while others join them.
     basis.reserve(most_directions);
     directions.reserve(most_directions);
@@ -48,36 +83,32 @@ namespace graupel
     return scale;
   }
 
-  void
-  ResidualMinimizer::products(const NodeBlockVector &vector, const unsigned int first)
+  std::vector<double>
+  ResidualMinimizer::products(const NodeBlockVector &vector) const
   {
-    removed.assign(n_basis - first + 1, 0.);
-    const unsigned int size = vector.locally_owned_size();
+    std::vector<double> result(n_basis + 2, 0.);
+    const unsigned int  size = vector.locally_owned_size();
     for (unsigned int begin = 0; begin < size; begin += chunk)
       {
         const unsigned int length = std::min(chunk, size - begin);
-        const float *const x      = vector.begin() + begin;
-        for (unsigned int i = first; i <= n_basis; ++i)
-          {
-            const float *const y =
-              (i < n_basis ? basis[i].begin() : vector.begin()) + begin;
-            NodeUnknowns part[4]{0.f, 0.f, 0.f, 0.f};
-            unsigned int k = 0;
-            for (; k + 16 <= length; k += 16)
-              for (unsigned int j = 0; j < 4; ++j)
-                part[j] += unknowns_of(x + k, j) * unknowns_of(y + k, j);
-            for (; k < length; k += 4)
-              part[0] += unknowns_of(x + k, 0) * unknowns_of(y + k, 0);
-            removed[i - first] += reduce((part[0] + part[1]) + (part[2] + part[3]));
-          }
+        const auto         add = [&](const unsigned int i, const NodeBlockVector &other) {
+          result[i] += product(vector.begin() + begin, other.begin() + begin, length);
+        };
+        for (unsigned int i = 0; i < n_basis; ++i)
+          add(i, basis[i]);
+        add(n_basis, vector);
+        add(n_basis + 1, residual);
       }
-    dealii::Utilities::MPI::sum(removed, vector.get_mpi_communicator(), removed);
+    dealii::Utilities::MPI::sum(result, vector.get_mpi_communicator(), result);
+    return result;
   }
 
+  template <typename Use>
   void
-  ResidualMinimizer::project(NodeBlockVector &vector)
+  ResidualMinimizer::subtract_basis(NodeBlockVector           &vector,
+                                    const std::vector<double> &part,
+                                    const Use                 &use) const
   {
-    products(vector, 0);
     const unsigned int size = vector.locally_owned_size();
     for (unsigned int begin = 0; begin < size; begin += chunk)
       {
@@ -86,20 +117,12 @@ namespace graupel
         for (unsigned int i = 0; i < n_basis; ++i)
           {
             const float *const y = basis[i].begin() + begin;
-            const float        h = removed[i];
+            const float        h = part[i];
             for (unsigned int k = 0; k < length; ++k)
               x[k] -= h * y[k];
           }
+        use(begin, length);
       }
-  }
-
-  double
-  ResidualMinimizer::squared_rest() const
-  {
-    double square = removed.back();
-    for (unsigned int i = 0; i + 1 < removed.size(); ++i)
-      square -= removed[i] * removed[i];
-    return square;
   }
 
   bool
@@ -112,29 +135,71 @@ namespace graupel
           system.initialize(vectors->back());
         }
     NodeBlockVector &image = basis[n_basis];
-    preconditioner.vmult(directions[n_basis], source);
-    system.vmult(image, directions[n_basis]);
+    preconditioner.vmult(directions[n_basis], image, source);
+    system.add_flux_product(image, directions[n_basis]);
 
-    // Once leaves of the basis what rounding errors in single precision are; twice is
-    // enough.
-    std::vector<double> column(n_basis + 1, 0.);
-    double              before = 0., square = 0.;
-    for (unsigned int turn = 0; turn < 2; ++turn)
+    const auto squared_rest = [&](const std::vector<double> &part) {
+      double square = part[n_basis];
+      for (unsigned int i = 0; i < n_basis; ++i)
+        square -= part[i] * part[i];
+      return square;
+    };
+    std::vector<double> part   = products(image), column(part);
+    const double        before = part[n_basis];
+    double              square = squared_rest(part);
+    // Once leaves of the basis what rounding errors in single precision are; where little
+    // else is left, twice is enough.
+    if (square < hardly_left * hardly_left * before)
       {
-        project(image);
-        if (turn == 0)
-          before = removed[n_basis];
-        square = squared_rest();
+        subtract_basis(image, part, [](unsigned int, unsigned int) {});
+        part   = products(image);
+        square = squared_rest(part);
         for (unsigned int i = 0; i < n_basis; ++i)
-          column[i] += removed[i];
+          column[i] += part[i];
       }
     if (!(square > dependent * dependent * before))
       return false;
-    column[n_basis] = std::sqrt(square);
-    image *= 1. / column[n_basis];
+
+    const double        size  = std::sqrt(square);
+    const float         found = part[n_basis + 1] / size, inverse = 1. / size;
+    std::vector<double> totals(2, 0.); // squares of the residual, image's continuity
+    subtract_basis(image, part, [&](const unsigned int begin, const unsigned int length) {
+      float *const x = image.begin() + begin, *const r = residual.begin() + begin;
+      for (unsigned int k = 0; k < length; ++k)
+        {
+          x[k] *= inverse;
+          r[k] -= found * x[k];
+        }
+      totals[0] += product(r, r, length);
+      totals[1] += sum_of(x, length);
+    });
+    dealii::Utilities::MPI::sum(totals, residual.get_mpi_communicator(), totals);
+    left = std::sqrt(totals[0]);
+    share.push_back(found);
+    sums.resize(n_basis);
+    sums.push_back(totals[1]);
+    column.resize(n_basis);
+    column.push_back(size);
     triangle.resize(n_basis);
     triangle.push_back(column);
     ++n_basis;
+    return true;
+  }
+
+  bool
+  ResidualMinimizer::balance()
+  {
+    const double missing =
+      dealii::Utilities::MPI::sum(sum_of(residual.begin(), residual.locally_owned_size()),
+                                  residual.get_mpi_communicator());
+    double squares = 0.;
+    for (unsigned int i = 0; i < n_basis; ++i)
+      squares += sums[i] * sums[i];
+    if (!(std::abs(missing) < price_of_balance * left * std::sqrt(squares)))
+      return missing == 0.;
+    // The shortest correction within the basis, which the residual is orthogonal to.
+    for (unsigned int i = 0; i < n_basis; ++i)
+      share[i] += missing * sums[i] / squares;
     return true;
   }
 
@@ -147,9 +212,18 @@ namespace graupel
         for (unsigned int i = 0; i < k; ++i)
           share[i] -= share[k] * triangle[k][i];
       }
-    sum = 0.f;
-    for (unsigned int k = 0; k < n_basis; ++k)
-      sum.add(share[k], directions[k]);
+    sum                     = 0.f;
+    const unsigned int size = sum.locally_owned_size();
+    for (unsigned int begin = 0; begin < size; begin += chunk)
+      for (unsigned int i = 0; i < n_basis; ++i)
+        {
+          const unsigned int length = std::min(chunk, size - begin);
+          float *const       s      = sum.begin() + begin;
+          const float *const z      = directions[i].begin() + begin;
+          const float        factor = share[i];
+          for (unsigned int k = 0; k < length; ++k)
+            s[k] += factor * z[k];
+        }
     system.add_to(x, sum, scale);
   }
 
@@ -188,28 +262,33 @@ namespace graupel
                               const unsigned int maximum,
                               unsigned int      &iterations)
   {
-    project(residual);
-    share.assign(removed.begin(), removed.begin() + n_basis);
-    double left        = std::sqrt(std::max(0., squared_rest()));
-    bool   hardly_fell = false;
-    while (left > std::max(wanted, reliable))
+    share = products(residual);
+    share.resize(n_basis);
+    double square = 0.;
+    subtract_basis(
+      residual, share, [&](const unsigned int begin, const unsigned int length) {
+        square += product(residual.begin() + begin, residual.begin() + begin, length);
+      });
+    left =
+      std::sqrt(dealii::Utilities::MPI::sum(square, residual.get_mpi_communicator()));
+    bool hardly_fell = false, goes_on = true;
+    while (goes_on && left > std::max(wanted, reliable))
       {
-        if (n_basis == most_directions || iterations == maximum)
-          return false;
+        goes_on = n_basis < most_directions && iterations < maximum;
+        if (!goes_on)
+          break;
         ++iterations;
-        const bool is_extended = (!hardly_fell && extend(residual)) ||
-                                 (n_basis > 0 && extend(basis[n_basis - 1]));
-        if (!is_extended)
-          return false;
-        const unsigned int last = n_basis - 1;
-        products(residual, last);
-        const double found = removed[0];
-        share.push_back(found);
-        residual.add(-found, basis[last]);
-        const double now = std::sqrt(std::max(0., squared_rest()));
-        hardly_fell      = now > hardly * left;
-        left             = now;
+        const double before = left;
+        goes_on             = (!hardly_fell && extend(residual)) ||
+                  (n_basis > 0 && extend(basis[n_basis - 1]));
+        hardly_fell = left > hardly * before;
       }
-    return true;
+    if (goes_on && left <= wanted && !balance() && n_basis < most_directions)
+      {
+        ++iterations;
+        if (extend(everywhere))
+          balance();
+      }
+    return goes_on;
   }
 } // namespace graupel

@@ -2,9 +2,7 @@
 #define graupel_fluid_block_preconditioner_h
 
 #include <graupel/fluid/flux_factors.h>
-
-#include <deal.II/lac/trilinos_precondition.h>
-#include <deal.II/lac/trilinos_sparse_matrix.h>
+#include <graupel/fluid/pressure_multigrid.h>
 
 namespace graupel
 {
@@ -25,13 +23,16 @@ namespace graupel
      * latter must stay. */
     void refresh(const dealii::TrilinosWrappers::SparseMatrix &schur);
 
-    void vmult(NodeBlockVector &dst, const NodeBlockVector &src) const;
+    /** @p x becomes about the solution for @p b, and @p product what the system makes of
+     * the pressure of x, which is found on the way. */
+    void vmult(NodeBlockVector       &x,
+               NodeBlockVector       &product,
+               const NodeBlockVector &b) const;
 
   private:
-    const NodeBlockMatrix                                     &system;
-    FluxFactors                                                flux_inverse;
-    dealii::TrilinosWrappers::PreconditionAMG                  schur_inverse;
-    mutable dealii::LinearAlgebra::distributed::Vector<double> residual, pressure;
+    const NodeBlockMatrix &system;
+    FluxFactors            flux_inverse;
+    PressureMultigrid      schur_inverse;
   };
 } // namespace graupel
 

@@ -23,7 +23,7 @@ namespace graupel
                 const dealii::AffineConstraints<double> &constraints,
                 FlowMatrix                              &matrix);
 
-    /** Adds the @p system of the owned cell @p cell, and leaves 0 in it. @p rhs has the
+    /** Adds the @p system of the owned cell @p cell, which is void then. @p rhs has the
      * unknowns of FlowSpace::owned and FlowSpace::relevant. */
     void add(const unsigned int cell, CellSystem &system, BlockVector &rhs) const;
 

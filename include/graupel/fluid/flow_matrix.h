@@ -68,18 +68,6 @@ namespace graupel
      * Collective. */
     void vmult(BlockVector &dst, const BlockVector &src) const;
 
-    /** |D| and |C| in the norm of the largest sum over a row, of the last compress(). */
-    double
-    divergence_norm() const
-    {
-      return continuity_norms[0];
-    }
-    double
-    pressure_norm() const
-    {
-      return continuity_norms[1];
-    }
-
     unsigned int
     n_rows() const
     {
@@ -102,10 +90,10 @@ namespace graupel
     }
 
     /** Of the nodes: own ones, and the ghosts among the columns. */
-    const dealii::Utilities::MPI::Partitioner &
+    const std::shared_ptr<const dealii::Utilities::MPI::Partitioner> &
     partitioner() const
     {
-      return *nodes;
+      return nodes;
     }
 
   private:
@@ -121,7 +109,6 @@ namespace graupel
     // Of the blocks of other ranks' rows, which follow the own ones as ghosts.
     std::map<Pair, unsigned int>                       foreign_places;
     dealii::LinearAlgebra::distributed::Vector<double> values;
-    std::array<double, 2>                              continuity_norms{};
   };
 } // namespace graupel
 

@@ -15,8 +15,11 @@ namespace graupel
   public:
     void refresh(const NodeBlockMatrix &system);
 
-    /** The flux of each node in @p values becomes (LU)^-1 of it; pressures stay. */
-    void solve(NodeBlockVector &values) const;
+    /** The flux of each node in @p x becomes (LU)^-1 (@p b - @p known); pressures stay.
+     */
+    void solve(NodeBlockVector       &x,
+               const NodeBlockVector &b,
+               const NodeBlockVector &known) const;
 
   private:
     // A row's blocks: of L, whose diagonal is 1, and of U beyond its diagonal.

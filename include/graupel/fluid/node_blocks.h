@@ -32,24 +32,35 @@ namespace graupel
     /** Of @p original, which must outlive this object; all 0. */
     explicit NodeBlockMatrix(const FlowMatrix &original);
 
-    /** Takes the values that the original has now. */
+    /** Takes the values that the original has now. Collective. */
     void take();
 
     /** Makes @p vector a zero vector, with room for ghosts. */
     void initialize(NodeBlockVector &vector) const;
 
-    /** dst = [A G; D C] src. Collective. */
-    void vmult(NodeBlockVector &dst, const NodeBlockVector &src) const;
-
-    /** The flux of @p dst becomes that of @p src minus G p, with p the pressure of dst.
-     * Collective. */
-    void subtract_gradient(NodeBlockVector &dst, const NodeBlockVector &src) const;
+    /** The product with @p x in two parts: @p product = [G; C] p, and product += [A; D]
+     * q. Between them the preconditioner finds q. Collective. */
+    void multiply_pressure(NodeBlockVector &product, const NodeBlockVector &x) const;
+    void add_flux_product(NodeBlockVector &product, const NodeBlockVector &x) const;
 
     /** @p dst = @p src / @p size of the own unknowns, and dst += size * src. */
     void to_nodes(NodeBlockVector &dst, const BlockVector &src, const double size) const;
     void add_to(BlockVector &dst, const NodeBlockVector &src, const double size) const;
 
-    /** FlowMatrix::n_rows(), FlowMatrix::rows() and FlowMatrix::columns(). */
+    /** |D| and |C| in the norm of the largest sum over a row, of the last take(). */
+    double
+    divergence_norm() const
+    {
+      return continuity_norms[0];
+    }
+    double
+    pressure_norm() const
+    {
+      return continuity_norms[1];
+    }
+
+    /** FlowMatrix::n_rows(), FlowMatrix::rows(), FlowMatrix::columns() and
+     * FlowMatrix::partitioner(). */
     unsigned int
     n_rows() const
     {
@@ -65,6 +76,11 @@ namespace graupel
     {
       return original.columns();
     }
+    const std::shared_ptr<const dealii::Utilities::MPI::Partitioner> &
+    nodes() const
+    {
+      return original.partitioner();
+    }
 
     /** Diagonal entries of a block of A; the last is 0. */
     NodeUnknowns
@@ -79,7 +95,8 @@ namespace graupel
     const FlowMatrix                                          &original;
     std::shared_ptr<const dealii::Utilities::MPI::Partitioner> partitioner;
     // By block, each column of it by itself: three of the flux, and the pressure's.
-    std::vector<float> flux_columns, pressure_columns;
+    std::vector<float>    flux_columns, pressure_columns;
+    std::array<double, 2> continuity_norms{};
   };
 } // namespace graupel
 

@@ -12,7 +12,9 @@ namespace graupel
    * orthonormal basis Q with A Z = Q R. As Q is a basis whatever the residual is, the
    * search goes on from each exact residual without a restart. The next direction comes
    * from the residual, or from the last basis vector where the residual hardly falls, of
-   * which equal directions would come.
+   * which equal directions would come. The minimum is taken among the solutions of which
+   * the residual of the continuity equation has the sum 0: the mass balance of the whole
+   * vessel holds long before the equations of all nodes do.
    * Source: Jiranek & Rozloznik, Numer. Algorithms 53 (2010) 93,
    * doi:10.1007/s11075-009-9292-2 (bases); van der Vorst & Ye, SIAM J. Sci. Comput. 22
    * (2000) 835, doi:10.1137/S1064827599353865 (exact residuals).
@@ -53,16 +55,21 @@ namespace graupel
     bool minimize(const double       wanted,
                   const unsigned int maximum,
                   unsigned int      &iterations);
-    // A new direction and its image, if there is one.
+    // A new direction and its image, if there is one; the residual loses what it has of
+    // the image.
     bool extend(const NodeBlockVector &source);
-    // Takes out what the vectors of the basis have of the vector, to be found in removed.
-    void project(NodeBlockVector &vector);
+    // Takes out the sum of the residual over the continuity equation.
+    bool balance();
     void add_directions(BlockVector &x);
-    // What is left of the square of the vector without what removed has of it.
-    double squared_rest() const;
-    // Sums over all ranks of the products of a vector with those of the basis from the
-    // first on and, in the end, with itself.
-    void products(const NodeBlockVector &vector, const unsigned int first);
+    // Sums over all ranks of the products of a vector with the basis, with itself and
+    // with the residual.
+    std::vector<double> products(const NodeBlockVector &vector) const;
+    // The vector loses @p part of the basis, chunk by chunk; each is then given to @p use
+    // by its begin and length.
+    template <typename Use>
+    void subtract_basis(NodeBlockVector           &vector,
+                        const std::vector<double> &part,
+                        const Use                 &use) const;
 
     const FlowMatrix                &exact;
     const NodeBlockMatrix           &system;
@@ -70,10 +77,12 @@ namespace graupel
     std::vector<NodeBlockVector>     basis, directions; // Q, Z
     std::vector<std::vector<double>> triangle;          // R by column
     unsigned int                     n_basis = 0;
-    std::vector<double>              share;   // of each basis vector that x lacks
-    std::vector<double>              removed; // by project() and products()
+    std::vector<double>              share; // of each basis vector that x lacks
+    std::vector<double>              sums;  // of these over the continuity equation
     NodeBlockVector                  residual, sum;
-    double                           scale = 0.; // of the residual
+    NodeBlockVector                  everywhere; // 1 in the continuity equation
+    double                           left  = 0.; // size of the residual
+    double                           scale = 0.; // what the exact one is divided by
     BlockVector                      exact_residual;
   };
 } // namespace graupel

@@ -1,0 +1,153 @@
+#include <graupel/fluid/pressure_multigrid.h>
+
+#include <Epetra_CrsMatrix.h>
+#include <algorithm>
+#include <ml_MultiLevelPreconditioner.h>
+
+namespace graupel
+{
+  namespace
+  {
+    // Sums over a row, in four parts side by side, as the processor can begin the next
+    // before the last ends. Whole rows of equal length are faster than halves of any.
+    float
+    product(const float *const        values,
+            const unsigned int *const columns,
+            const float *const        x,
+            const unsigned int        length)
+    {
+      float        part[4]{};
+      unsigned int k = 0;
+      for (; k + 4 <= length; k += 4)
+        for (unsigned int i = 0; i < 4; ++i)
+          part[i] += values[k + i] * x[columns[k + i]];
+      for (; k < length; ++k)
+        part[0] += values[k] * x[columns[k]];
+      return (part[0] + part[1]) + (part[2] + part[3]);
+    }
+  } // namespace
+
+  PressureMultigrid::PressureMultigrid(const NodeBlockMatrix &system)
+    : system(system)
+    , values(system.columns().size())
+    , inverse_diagonal(system.n_rows())
+  {
+    pressure.reinit(system.nodes());
+    residual.reinit(system.nodes()->locally_owned_range(),
+                    system.nodes()->get_mpi_communicator());
+    correction.reinit(residual);
+  }
+
+  void
+  PressureMultigrid::refresh(const dealii::TrilinosWrappers::SparseMatrix &matrix)
+  {
+    dealii::TrilinosWrappers::PreconditionAMG::AdditionalData data;
+    data.elliptic              = true;
+    data.aggregation_threshold = 0.02;
+    levels.initialize(matrix, data);
+    const auto &all =
+      dynamic_cast<ML_Epetra::MultiLevelPreconditioner &>(levels.trilinos_operator());
+    ml                                   = const_cast<ML *>(all.GetML());
+    const ML_Operator *const restriction = ml->SingleLevel[ml->ML_finest_level].Rmat;
+    has_coarser                          = restriction->to;
+    if (has_coarser)
+      {
+        coarse_residual.resize(restriction->outvec_leng);
+        coarse_correction.resize(restriction->outvec_leng);
+        take_finest(matrix);
+      }
+  }
+
+  void
+  PressureMultigrid::take_finest(const dealii::TrilinosWrappers::SparseMatrix &matrix)
+  {
+    const auto &original = matrix.trilinos_matrix();
+    const auto &columns  = system.columns();
+    for (unsigned int row = 0; row < system.n_rows(); ++row)
+      {
+        int     n_entries;
+        double *entries;
+        int    *numbers;
+        original.ExtractMyRowView(row, n_entries, entries, numbers);
+        const auto begin = columns.begin() + system.rows()[row],
+                   end   = columns.begin() + system.rows()[row + 1];
+        for (int k = 0; k < n_entries; ++k)
+          {
+            const unsigned int column =
+              system.nodes()->global_to_local(original.ColMap().GID(numbers[k]));
+            values[std::lower_bound(begin, end, column) - columns.begin()] = entries[k];
+            if (column == row)
+              inverse_diagonal[row] = 1. / entries[k];
+          }
+      }
+  }
+
+  void
+  PressureMultigrid::vmult(NodeBlockVector &x, const NodeBlockVector &b) const
+  {
+    const unsigned int n_rows = system.n_rows();
+    if (has_coarser)
+      {
+        pressure = 0.f;
+        for (unsigned int row = 0; row < n_rows; ++row)
+          smooth(row, b);
+        pressure.update_ghost_values();
+        for (unsigned int row = 0; row < n_rows; ++row)
+          residual.local_element(row) = left(row, b);
+        correct();
+        pressure.zero_out_ghost_values();
+        pressure.update_ghost_values();
+        for (unsigned int row = n_rows; row-- > 0;)
+          smooth(row, b);
+        pressure.zero_out_ghost_values();
+        for (unsigned int row = 0; row < n_rows; ++row)
+          x.local_element(4 * row + 3) = pressure.local_element(row);
+      }
+    else
+      {
+        for (unsigned int row = 0; row < n_rows; ++row)
+          residual.local_element(row) = b.local_element(4 * row + 3);
+        levels.vmult(correction, residual);
+        for (unsigned int row = 0; row < n_rows; ++row)
+          x.local_element(4 * row + 3) = correction.local_element(row);
+      }
+  }
+
+  float
+  PressureMultigrid::left(const unsigned int row, const NodeBlockVector &b) const
+  {
+    const unsigned int begin = system.rows()[row];
+    return b.local_element(4 * row + 3) - product(&values[begin],
+                                                  &system.columns()[begin],
+                                                  pressure.begin(),
+                                                  system.rows()[row + 1] - begin);
+  }
+
+  void
+  PressureMultigrid::smooth(const unsigned int row, const NodeBlockVector &b) const
+  {
+    pressure.local_element(row) += inverse_diagonal[row] * left(row, b);
+  }
+
+  void
+  PressureMultigrid::correct() const
+  {
+    ML_Operator *const restriction = ml->SingleLevel[ml->ML_finest_level].Rmat;
+    ML_1Level *const   coarser     = restriction->to;
+    const int n_fine = residual.locally_owned_size(), n_coarse = coarse_residual.size();
+    ML_Operator_Apply(
+      restriction, n_fine, residual.begin(), n_coarse, coarse_residual.data());
+    std::fill(coarse_correction.begin(), coarse_correction.end(), 0.);
+    ML_Cycle_MG(coarser,
+                coarse_correction.data(),
+                coarse_residual.data(),
+                ML_ZERO,
+                ml->comm,
+                ML_NO_RES_NORM,
+                ml);
+    ML_Operator_Apply(
+      coarser->Pmat, n_coarse, coarse_correction.data(), n_fine, correction.begin());
+    for (unsigned int row = 0; row < system.n_rows(); ++row)
+      pressure.local_element(row) += correction.local_element(row);
+  }
+} // namespace graupel
