@@ -2,6 +2,7 @@
 run that was not: bit by bit on the same number of ranks. Called with the path of the binary.
 """
 
+import contextlib
 import os
 import pathlib
 import re
@@ -53,7 +54,8 @@ class InterruptedRuns(RunTest):
         monitors = output / "monitors.csv"
         # 100 spheres are in after 20 ms; a flow is well on its way.
         rows_before = {"fill": 1, "settle": 3, "flow": 12}[phase]
-        for _ in range(6000):
+        end = time.monotonic() + 300
+        while time.monotonic() < end:
             rows = monitors.read_text().splitlines() if monitors.exists() else []
             in_phase = [row for row in rows if f",{phase}," in row]
             has_checkpoint = (output / "checkpoint").is_dir()
@@ -61,14 +63,30 @@ class InterruptedRuns(RunTest):
                 return
             self.assertIsNone(run.poll(), f"it ended before that many rows of {phase}")
             time.sleep(0.001)
+        self.fail(f"there are not that many rows of {phase} after five minutes")
+
+    def kill(self, run):
+        """Kills all ranks of a run, with what started them, and returns when they are gone.
+        mpirun gives each rank a group of its own, and one that outlived it would still write."""
+
+        def is_of_run(process):
+            try:
+                return os.readlink(process / "cwd") == os.path.realpath(self.path)
+            except OSError:  # another user's, or gone
+                return False
+
+        while left := list(filter(is_of_run, pathlib.Path("/proc").glob("[0-9]*"))):
+            for process in left:
+                with contextlib.suppress(ProcessLookupError):
+                    os.kill(int(process.name), signal.SIGKILL)
+            time.sleep(0.001)
+        run.communicate()
 
     def kill_in(self, phase, file, values, ranks):
-        """Kills all ranks of a run, with what started them, when a checkpoint lies behind
-        the phase's first rows."""
+        """Kills a run when a checkpoint lies behind the phase's first rows."""
         run = self.start(file, {**values, **ALWAYS}, ranks)
         self.wait_for(phase, run, needs_checkpoint=True)
-        os.killpg(run.pid, signal.SIGKILL)
-        run.communicate()
+        self.kill(run)
 
     def stop_in(self, phase, file, values, ranks):
         """Asks a run to stop: its only checkpoint within a phase is the one that it then
@@ -211,8 +229,7 @@ class FullDisks(InterruptedRuns):
         before = semaphores()
         run = self.start("restart.prm", ALWAYS, 2)
         self.wait_for("settle", run, needs_checkpoint=True)
-        os.killpg(run.pid, signal.SIGKILL)
-        run.communicate()
+        self.kill(run)
         self.assertEqual(semaphores() - before, set())
 
 
