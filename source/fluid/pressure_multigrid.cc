@@ -8,8 +8,8 @@ namespace graupel
 {
   namespace
   {
-    // Sums over a row, in four parts side by side, as the processor can begin the next
-    // before the last ends. Whole rows of equal length are faster than halves of any.
+    // Sum of the products of entries with the values of their columns, in four parts side
+    // by side, as the processor can begin the next before the last ends.
     float
     product(const float *const        values,
             const unsigned int *const columns,
@@ -36,6 +36,12 @@ namespace graupel
     residual.reinit(system.nodes()->locally_owned_range(),
                     system.nodes()->get_mpi_communicator());
     correction.reinit(residual);
+    const auto &columns = system.columns();
+    for (unsigned int row = 0; row < system.n_rows(); ++row)
+      diagonals.push_back(std::lower_bound(columns.begin() + system.rows()[row],
+                                           columns.begin() + system.rows()[row + 1],
+                                           row) -
+                          columns.begin());
   }
 
   void
@@ -88,18 +94,10 @@ namespace graupel
     const unsigned int n_rows = system.n_rows();
     if (has_coarser)
       {
-        pressure = 0.f;
-        for (unsigned int row = 0; row < n_rows; ++row)
-          smooth(row, b);
-        pressure.update_ghost_values();
-        for (unsigned int row = 0; row < n_rows; ++row)
-          residual.local_element(row) = left(row, b);
+        smooth_forwards(b);
+        find_residual();
         correct();
-        pressure.zero_out_ghost_values();
-        pressure.update_ghost_values();
-        for (unsigned int row = n_rows; row-- > 0;)
-          smooth(row, b);
-        pressure.zero_out_ghost_values();
+        smooth_backwards(b);
         for (unsigned int row = 0; row < n_rows; ++row)
           x.local_element(4 * row + 3) = pressure.local_element(row);
       }
@@ -114,19 +112,41 @@ namespace graupel
   }
 
   float
-  PressureMultigrid::left(const unsigned int row, const NodeBlockVector &b) const
+  PressureMultigrid::row_product(const unsigned int begin, const unsigned int end) const
   {
-    const unsigned int begin = system.rows()[row];
-    return b.local_element(4 * row + 3) - product(&values[begin],
-                                                  &system.columns()[begin],
-                                                  pressure.begin(),
-                                                  system.rows()[row + 1] - begin);
+    return product(
+      &values[begin], &system.columns()[begin], pressure.begin(), end - begin);
   }
 
   void
-  PressureMultigrid::smooth(const unsigned int row, const NodeBlockVector &b) const
+  PressureMultigrid::smooth_forwards(const NodeBlockVector &b) const
   {
-    pressure.local_element(row) += inverse_diagonal[row] * left(row, b);
+    for (unsigned int row = 0; row < system.n_rows(); ++row)
+      pressure.local_element(row) =
+        inverse_diagonal[row] *
+        (b.local_element(4 * row + 3) - row_product(system.rows()[row], diagonals[row]));
+  }
+
+  void
+  PressureMultigrid::find_residual() const
+  {
+    // A row has only been told of what comes before its diagonal.
+    pressure.update_ghost_values();
+    for (unsigned int row = 0; row < system.n_rows(); ++row)
+      residual.local_element(row) =
+        -row_product(diagonals[row] + 1, system.rows()[row + 1]);
+    pressure.zero_out_ghost_values();
+  }
+
+  void
+  PressureMultigrid::smooth_backwards(const NodeBlockVector &b) const
+  {
+    pressure.update_ghost_values();
+    for (unsigned int row = system.n_rows(); row-- > 0;)
+      pressure.local_element(row) +=
+        inverse_diagonal[row] * (b.local_element(4 * row + 3) -
+                                 row_product(system.rows()[row], system.rows()[row + 1]));
+    pressure.zero_out_ghost_values();
   }
 
   void

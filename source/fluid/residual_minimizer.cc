@@ -20,9 +20,10 @@ namespace graupel
 
     // Of the size of a vector: what may be left of it without its products with the basis
     // where these need not be taken out twice [-].
-    constexpr double hardly_left = 0.1;
+    constexpr double hardly_left = 0.7;
     // Of the size of the residual: by what it may grow so that its sum over the
-    // continuity equation is 0 [-].
+    // continuity equation is 0 [-]. Where it would cost more the sum stays: a direction
+    // made for it is one that single precision has no exact image of.
     constexpr double price_of_balance = 0.9;
 
     // Unknowns that stay in the fastest memory while all vectors pass by.
@@ -62,10 +63,6 @@ namespace graupel
   {
     system.initialize(residual);
     system.initialize(sum);
-    system.initialize(everywhere);
-    for (unsigned int node = 0; node < system.n_rows(); ++node)
-      if (system.rows()[node + 1] > system.rows()[node] + 1) // it does not hang
-        everywhere.local_element(4 * node + 3) = 1.f;
     // They are referred to while others join them.
     basis.reserve(most_directions);
     directions.reserve(most_directions);
@@ -86,7 +83,7 @@ namespace graupel
   std::vector<double>
   ResidualMinimizer::products(const NodeBlockVector &vector) const
   {
-    std::vector<double> result(n_basis + 2, 0.);
+    std::vector<double> result(n_basis + 1, 0.);
     const unsigned int  size = vector.locally_owned_size();
     for (unsigned int begin = 0; begin < size; begin += chunk)
       {
@@ -97,7 +94,6 @@ namespace graupel
         for (unsigned int i = 0; i < n_basis; ++i)
           add(i, basis[i]);
         add(n_basis, vector);
-        add(n_basis + 1, residual);
       }
     dealii::Utilities::MPI::sum(result, vector.get_mpi_communicator(), result);
     return result;
@@ -160,24 +156,26 @@ namespace graupel
     if (!(square > dependent * dependent * before))
       return false;
 
-    const double        size  = std::sqrt(square);
-    const float         found = part[n_basis + 1] / size, inverse = 1. / size;
-    std::vector<double> totals(2, 0.); // squares of the residual, image's continuity
-    subtract_basis(image, part, [&](const unsigned int begin, const unsigned int length) {
-      float *const x = image.begin() + begin, *const r = residual.begin() + begin;
+    const double        size    = std::sqrt(square);
+    const float         inverse = 1. / size;
+    std::vector<double> totals(3, 0.); // residual times image and itself, continuity
+    const auto add_up = [&](const unsigned int begin, const unsigned int length) {
+      float *const       x = image.begin() + begin;
+      const float *const r = residual.begin() + begin;
       for (unsigned int k = 0; k < length; ++k)
-        {
-          x[k] *= inverse;
-          r[k] -= found * x[k];
-        }
-      totals[0] += product(r, r, length);
-      totals[1] += sum_of(x, length);
-    });
+        x[k] *= inverse;
+      totals[0] += product(r, x, length);
+      totals[1] += product(r, r, length);
+      totals[2] += sum_of(x, length);
+    };
+    subtract_basis(image, part, add_up);
     dealii::Utilities::MPI::sum(totals, residual.get_mpi_communicator(), totals);
-    left = std::sqrt(totals[0]);
+    const double found = totals[0];
+    residual.add(-found, image);
+    left = std::sqrt(std::max(0., totals[1] - found * found));
     share.push_back(found);
     sums.resize(n_basis);
-    sums.push_back(totals[1]);
+    sums.push_back(totals[2]);
     column.resize(n_basis);
     column.push_back(size);
     triangle.resize(n_basis);
@@ -186,7 +184,7 @@ namespace graupel
     return true;
   }
 
-  bool
+  void
   ResidualMinimizer::balance()
   {
     const double missing =
@@ -195,12 +193,10 @@ namespace graupel
     double squares = 0.;
     for (unsigned int i = 0; i < n_basis; ++i)
       squares += sums[i] * sums[i];
-    if (!(std::abs(missing) < price_of_balance * left * std::sqrt(squares)))
-      return missing == 0.;
     // The shortest correction within the basis, which the residual is orthogonal to.
-    for (unsigned int i = 0; i < n_basis; ++i)
-      share[i] += missing * sums[i] / squares;
-    return true;
+    if (std::abs(missing) < price_of_balance * left * std::sqrt(squares))
+      for (unsigned int i = 0; i < n_basis; ++i)
+        share[i] += missing * sums[i] / squares;
   }
 
   void
@@ -283,12 +279,8 @@ namespace graupel
                   (n_basis > 0 && extend(basis[n_basis - 1]));
         hardly_fell = left > hardly * before;
       }
-    if (goes_on && left <= wanted && !balance() && n_basis < most_directions)
-      {
-        ++iterations;
-        if (extend(everywhere))
-          balance();
-      }
+    if (goes_on && left <= wanted)
+      balance();
     return goes_on;
   }
 } // namespace graupel

@@ -402,7 +402,7 @@ TEST(LinearSolver, SolutionsAreAsExactAsDoublePrecisionAllows)
   // The sum of the continuity equation is exact long before.
   found = 0.;
   minimizer.forget();
-  minimizer.solve(found, right, 1e-3 * right.l2_norm(), 0., 200);
+  minimizer.solve(found, right, 1e-6 * right.l2_norm(), 0., 200);
   const BlockVector &rest = minimizer.last_residual();
   const double       all  = std::abs(rest.block(1).mean_value()) * rest.block(1).size();
   say() << "residual " << rest.l2_norm() << ", sum of the continuity equation " << all

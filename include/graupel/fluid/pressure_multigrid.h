@@ -33,18 +33,22 @@ namespace graupel
 
   private:
     void take_finest(const dealii::TrilinosWrappers::SparseMatrix &matrix);
-    // What is left of a row's equation.
-    float left(const unsigned int row, const NodeBlockVector &b) const;
-    // Solves it for the pressure of its node.
-    void smooth(const unsigned int row, const NodeBlockVector &b) const;
+    // Sum over the entries at these places.
+    float row_product(const unsigned int begin, const unsigned int end) const;
+    // From 0.
+    void smooth_forwards(const NodeBlockVector &b) const;
+    // What is left after that.
+    void find_residual() const;
     // Adds to the pressure what the coarser levels make of the residual.
     void correct() const;
+    void smooth_backwards(const NodeBlockVector &b) const;
 
     const NodeBlockMatrix                    &system;
     dealii::TrilinosWrappers::PreconditionAMG levels;
     ML_Struct                                *ml          = nullptr; // of the levels
     bool                                      has_coarser = false;
-    std::vector<float>                        values; // by the system's blocks
+    std::vector<float>                        values;    // by the system's blocks
+    std::vector<unsigned int>                 diagonals; // their places
     std::vector<float>                        inverse_diagonal;
     mutable dealii::LinearAlgebra::distributed::Vector<float>  pressure;
     mutable dealii::LinearAlgebra::distributed::Vector<double> residual, correction;

@@ -12,9 +12,9 @@ namespace graupel
    * orthonormal basis Q with A Z = Q R. As Q is a basis whatever the residual is, the
    * search goes on from each exact residual without a restart. The next direction comes
    * from the residual, or from the last basis vector where the residual hardly falls, of
-   * which equal directions would come. The minimum is taken among the solutions of which
-   * the residual of the continuity equation has the sum 0: the mass balance of the whole
-   * vessel holds long before the equations of all nodes do.
+   * which equal directions would come. Where that costs little, the minimum is taken
+   * among the solutions of which the residual of the continuity equation has the sum 0:
+   * the mass balance of the whole vessel holds long before the equations of all nodes do.
    * Source: Jiranek & Rozloznik, Numer. Algorithms 53 (2010) 93,
    * doi:10.1007/s11075-009-9292-2 (bases); van der Vorst & Ye, SIAM J. Sci. Comput. 22
    * (2000) 835, doi:10.1137/S1064827599353865 (exact residuals).
@@ -58,11 +58,10 @@ namespace graupel
     // A new direction and its image, if there is one; the residual loses what it has of
     // the image.
     bool extend(const NodeBlockVector &source);
-    // Takes out the sum of the residual over the continuity equation.
-    bool balance();
+    // Takes out the sum of the residual over the continuity equation, if it costs little.
+    void balance();
     void add_directions(BlockVector &x);
-    // Sums over all ranks of the products of a vector with the basis, with itself and
-    // with the residual.
+    // Sums over all ranks of the products of a vector with the basis and with itself.
     std::vector<double> products(const NodeBlockVector &vector) const;
     // The vector loses @p part of the basis, chunk by chunk; each is then given to @p use
     // by its begin and length.
@@ -80,7 +79,6 @@ namespace graupel
     std::vector<double>              share; // of each basis vector that x lacks
     std::vector<double>              sums;  // of these over the continuity equation
     NodeBlockVector                  residual, sum;
-    NodeBlockVector                  everywhere; // 1 in the continuity equation
     double                           left  = 0.; // size of the residual
     double                           scale = 0.; // what the exact one is divided by
     BlockVector                      exact_residual;
