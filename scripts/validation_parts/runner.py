@@ -37,7 +37,8 @@ class Runner:
         return "" if done.returncode == 0 else (done.stdout + done.stderr).strip()
 
     def do(self, case, run):
-        """Runs it, unless it has been; returns whether its results are there."""
+        """Runs it, unless it has been, or goes on with it; returns whether its results are
+        there."""
         if self.has(case, run):
             print(f"== {case}/{run.name}: done before", flush=True)
             return True
@@ -46,6 +47,8 @@ class Runner:
         directory.parent.mkdir(parents=True, exist_ok=True)
         begin = time.monotonic()
         more = ["--output", str(directory), "--set", "Output/report=false"]
+        if any(directory.glob("checkpoint*")):
+            more.append("--resume")
         status = subprocess.run(self.command(case, run, *more), check=False).returncode
         took = f"{time.monotonic() - begin:.0f} s"
         if status:

@@ -182,6 +182,33 @@ namespace graupel
   }
 
   void
+  require_room(const std::string &path, const std::uint64_t bytes, MPI_Comm communicator)
+  {
+    namespace mpi = dealii::Utilities::MPI;
+    std::error_code nobody_asks; // the room is unlimited then
+    const auto      folder = std::filesystem::path(path).parent_path();
+    const auto      room   = mpi::broadcast(
+      communicator, std::filesystem::space(folder, nobody_asks).available, 0);
+    if (const auto all = mpi::sum(bytes, communicator); all > room)
+      throw FileError(path,
+                      std::make_error_code(std::errc::no_space_on_device).message() +
+                        " for " + std::to_string(all) + " bytes");
+  }
+
+  void
+  send_to_disk(const std::string &path)
+  {
+    try
+      {
+        OpenFile(path, O_RDONLY).send_to_disk();
+      }
+    catch (const std::system_error &error)
+      {
+        throw FileError(path, cause(error));
+      }
+  }
+
+  void
   prepare_mpi_files()
   {
     // File pointers that ranks share are of no use here. The component sm keeps one in

@@ -72,7 +72,7 @@ namespace graupel
     for (const std::string &warning : warnings(state.parameters))
       state.progress.say("warning: " + warning);
     if (checkpoint)
-      go_on_from(checkpoint->first);
+      go_on_from(checkpoint->state);
     while (phase_number < n_phases())
       run_phase(*make_phase(phase_number));
     write_summary_file();
@@ -102,8 +102,8 @@ namespace graupel
   void
   Simulation::run_phase(Phase &phase)
   {
-    if (checkpoint && !checkpoint->first.phase.empty())
-      phase.resume(checkpoint->first.phase);
+    if (checkpoint && !checkpoint->state.phase.empty())
+      phase.resume(checkpoint->state.phase);
     else
       phase.begin();
     checkpoint.reset();

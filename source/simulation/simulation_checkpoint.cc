@@ -1,3 +1,4 @@
+#include <graupel/base/files.h>
 #include <graupel/base/parameters.h>
 #include <graupel/base/stop_request.h>
 #include <graupel/simulation/simulation.h>
@@ -7,6 +8,7 @@
 #include <boost/serialization/vector.hpp>
 
 #include <cstring>
+#include <numeric>
 #include <sstream>
 
 namespace graupel
@@ -18,6 +20,21 @@ namespace graupel
     // Of the time that a step and a checkpoint have taken so far, room for them before
     // the time limit [-].
     constexpr double room_to_stop = 2.;
+
+    // What p4est's file has at most, beside what is attached to cells [bytes].
+    constexpr std::uint64_t of_a_rank = 16384, of_a_cell = 128;
+
+    // At most, of the mesh and what is attached to it [bytes].
+    std::uint64_t
+    size_of_fields(const VesselMesh::CellBytes &bytes)
+    {
+      return std::accumulate(bytes.begin(),
+                             bytes.end(),
+                             of_a_rank,
+                             [](const std::uint64_t n, const auto &cell) {
+                               return n + cell.size() + of_a_cell;
+                             });
+    }
   } // namespace
 
   void
@@ -29,10 +46,9 @@ namespace graupel
   void
   Simulation::resume()
   {
-    finish_checkpoint(files.path("checkpoint"), state.communicator);
-    checkpoint = read_checkpoint(
-      files.path("checkpoint"), state.parameters, changed_parameters, state.communicator);
-    check_cases(checkpoint->first);
+    checkpoint =
+      read_checkpoint(files.path("checkpoint"), state.parameters, state.communicator);
+    check_cases(checkpoint->state);
   }
 
   void
@@ -111,6 +127,7 @@ namespace graupel
           return;
         auto bytes = state.fluid->fluid().cell_bytes();
         state.averages.append(state.fluid->nodes(), bytes);
+        require_room(file, size_of_fields(bytes), state.communicator);
         state.mesh.save(file, bytes);
       },
       state.communicator);
@@ -163,9 +180,8 @@ namespace graupel
   {
     VesselMesh::CellBytes bytes;
     if (saved.has_fluid)
-      bytes =
-        state.mesh.load(checkpoint_fields(files.path("checkpoint")), saved.partition);
-    state.dem.restore(checkpoint->second);
+      bytes = state.mesh.load(checkpoint_fields(checkpoint->folder), saved.partition);
+    state.dem.restore(checkpoint->particles);
 
     state.time           = saved.time;
     next_output          = saved.next_output;
@@ -198,7 +214,7 @@ namespace graupel
     text << "resumed at " << state.time << " s, " << state.dem.n_global()
          << " particles, " << series.results.size() << " flow case(s) done";
     state.progress.say(text.str());
-    for (const std::string &change : changed_parameters)
-      state.progress.say("changed: " + change);
+    for (const std::string &text : checkpoint->told)
+      state.progress.say(text);
   }
 } // namespace graupel

@@ -1,3 +1,4 @@
+#include <graupel/base/checksum.h>
 #include <graupel/base/files.h>
 #include <graupel/base/stop_request.h>
 
@@ -11,7 +12,8 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
-// Files that are written whole or not at all, and signals that are noted.
+// Files that are written whole or not at all and are known again, and signals that are
+// noted.
 
 using namespace graupel;
 namespace fs  = std::filesystem;
@@ -170,6 +172,63 @@ TEST_F(WrittenFiles, GrowByWholeTextsOnly)
   expect_only(path, "one\ntwo\n");
   append_to_file(path, "three\n");
   expect_only(path, "one\ntwo\nthree\n");
+}
+
+TEST_F(WrittenFiles, AskForRoomBeforehand)
+{
+  EXPECT_EQ(failure_of([&] { require_room(folder + "/a", 1000, MPI_COMM_WORLD); }), "");
+  const std::uint64_t much = 1ul << 60;
+  const unsigned int  n    = mpi::n_mpi_processes(MPI_COMM_WORLD);
+  EXPECT_EQ(failure_of([&] { require_room(folder + "/a", much, MPI_COMM_WORLD); }),
+            "Cannot write " + folder + "/a: No space left on device for " +
+              std::to_string(n * much) + " bytes.");
+}
+
+// Source of the value: the check value of CRC-32 in the catalogue of Williams, "A
+// painless guide to CRC error detection algorithms" (1993).
+TEST(Checksum, IsThatOfThePartsTogether)
+{
+  EXPECT_EQ(Checksum("123456789").crc, 0xCBF43926u);
+  Checksum sum("1234");
+  sum.add(Checksum(""));
+  sum.add(Checksum("56789"));
+  EXPECT_EQ(sum, Checksum("123456789"));
+  EXPECT_EQ(sum.length, 9u);
+
+  const unsigned int rank = mpi::this_mpi_process(MPI_COMM_WORLD);
+  std::string        whole;
+  for (unsigned int r = 0; r < mpi::n_mpi_processes(MPI_COMM_WORLD); ++r)
+    whole += std::string(3 + 5 * r, 'a' + r);
+  EXPECT_EQ(joined(Checksum(std::string(3 + 5 * rank, 'a' + rank)), MPI_COMM_WORLD),
+            Checksum(whole));
+}
+
+TEST_F(WrittenFiles, AreToldFromThoseThatWereChanged)
+{
+  const std::string path = folder + "/file";
+  std::string       text;
+  for (unsigned int k = 0; k < 10000; ++k)
+    text += static_cast<char>(k * k % 251);
+  const auto sum_with = [&](const std::string &there) {
+    if (is_first())
+      std::ofstream(path, std::ios::binary) << there;
+    MPI_Barrier(MPI_COMM_WORLD);
+    const auto sum = checksum_of_file(path, 3, MPI_COMM_WORLD);
+    MPI_Barrier(MPI_COMM_WORLD);
+    return sum;
+  };
+  const Checksum right(text);
+  EXPECT_EQ(sum_with(text + "end"), right);
+  for (unsigned int turn = 0; turn < 1000; ++turn)
+    {
+      std::string changed = text;
+      changed[turn * 7919 % text.size()] ^= static_cast<char>(1 << turn % 8);
+      ASSERT_FALSE(sum_with(changed + "end") == right) << turn;
+    }
+  EXPECT_FALSE(sum_with(text) == right);
+  EXPECT_FALSE(sum_with("no").has_value());
+  EXPECT_FALSE(checksum_of_file(folder, 0, MPI_COMM_WORLD).has_value());
+  EXPECT_FALSE(checksum_of_file(folder + "/nothing", 0, MPI_COMM_WORLD).has_value());
 }
 
 TEST(StopRequest, NotesASignal)

@@ -3,6 +3,7 @@ run that was not: bit by bit on the same number of ranks. Called with the path o
 """
 
 import contextlib
+import itertools
 import os
 import pathlib
 import re
@@ -181,6 +182,103 @@ class StoppedRuns(InterruptedRuns):
         self.expect_the_same("restart.prm", {}, ("fill",), end=stop)
         far = self.run_file("restart.prm", {}, "--time-limit", 60)
         self.assertEqual(far.status, 0, far)
+
+
+def cut(file):
+    """Leaves the first half."""
+    os.truncate(file, file.stat().st_size // 2)
+
+
+def empty(file):
+    """Leaves nothing in it."""
+    os.truncate(file, 0)
+
+
+def flip(file):
+    """Turns one bit over."""
+    content = bytearray(file.read_bytes())
+    content[len(content) * 2 // 3] ^= 16
+    file.write_bytes(content)
+
+
+def overwrite(file):
+    """Puts something else there."""
+    file.write_text("Not what was written.\n" * 50)
+
+
+DAMAGES = (cut, empty, flip, overwrite, pathlib.Path.unlink)
+
+
+class DamagedFiles(InterruptedRuns):
+    """Files that are not what was written are named, and not used."""
+
+    def restore(self, kept):
+        """The run as it was stopped."""
+        shutil.rmtree(self.path / "killed", ignore_errors=True)
+        shutil.copytree(self.path / kept, self.path / "killed")
+
+    def test_the_checkpoint_before_is_taken(self):
+        whole = self.run_file("restart.prm", {}, output="whole")
+        self.stop_in("flow", "restart.prm", {}, 1)
+        shutil.copytree(self.path / "killed", self.path / "kept")
+        last = self.path / "killed" / "checkpoint"
+        names = sorted(file.name for file in last.iterdir())
+        self.assertEqual(names, ["fields", "fields.info", "fields_fixed.data", "state.bin"])
+        for number, (name, damage) in enumerate(itertools.product(names, DAMAGES)):
+            with self.subTest(name=name, damage=damage.__name__):
+                self.restore("kept")
+                damage(last / name)
+                ranks = 1 + number % 2
+                # To see that it goes on is enough for most of them.
+                more = ["--time-limit", 1e-3] if number % 7 else []
+                run = self.run_file("restart.prm", {}, "--resume", *more, output="killed", ranks=ranks)
+                self.assertEqual(run.status, STOPPED if more else 0, run)
+                self.assertIn(f"warning: killed/checkpoint/{name}", run.said)
+                self.assertIn("goes on from the checkpoint before", run.said)
+                if not more and ranks == 1:
+                    self.assertEqual(
+                        (whole.directory / "monitors.csv").read_text(),
+                        (self.path / "killed" / "monitors.csv").read_text(),
+                    )
+
+    def test_without_a_whole_checkpoint_nothing_goes_on(self):
+        self.stop_in("flow", "restart.prm", {}, 1)
+        shutil.copytree(self.path / "killed", self.path / "kept")
+        for ranks in (1, 2):
+            self.restore("kept")
+            flip(self.path / "killed" / "checkpoint" / "fields_fixed.data")
+            flip(self.path / "killed" / "checkpoint.old" / "state.bin")
+            run = self.run_file("restart.prm", {}, "--resume", output="killed", ranks=ranks)
+            self.assertEqual(run.status, 1, run)
+            self.assertIn("killed/checkpoint/fields_fixed.data is damaged", run.refusal)
+            self.assertIn("killed/checkpoint.old/state.bin is cut off or damaged", run.refusal)
+
+    def test_one_that_was_killed_before_it_had_its_name(self):
+        whole = self.run_file("restart.prm", {}, output="whole")
+        self.stop_in("flow", "restart.prm", {}, 1)
+        (self.path / "killed" / "checkpoint").rename(self.path / "killed" / "checkpoint.new")
+        run = self.run_file("restart.prm", {}, "--resume", output="killed")
+        self.assertEqual(run.status, 0, run)
+        self.assertNotIn("warning", run.said)
+        self.assertEqual(
+            (whole.directory / "monitors.csv").read_text(),
+            (run.directory / "monitors.csv").read_text(),
+        )
+
+    def test_beds(self):
+        bed = self.run_file("restart.prm", {"Flow/superficial velocities": ""}, output="bed")
+        self.assertEqual(bed.status, 0, bed)
+        file = bed.directory / "bed.bin"
+        content = file.read_bytes()
+        for damage in DAMAGES:
+            damage(file)
+            run = self.run_file("restart.prm", {"Filling/start from": "bed"})
+            self.assertEqual(run.status, 1, run)
+            self.assertIn("Filling/start from", run.refusal)
+            self.assertIn("bed/bed.bin", run.refusal)
+            file.write_bytes(content)
+        run = self.run_file("restart.prm", {"Filling/start from": "bed"})
+        self.assertEqual(run.status, 0, run)
 
 
 class FullDisks(InterruptedRuns):

@@ -46,6 +46,17 @@ namespace graupel
                   const std::string &part,
                   MPI_Comm           communicator);
 
+  /** Throws FileError on all ranks where the disk of the folder of @p path has no room for
+   * @p bytes of each rank, before they are written by a library that would abort. What
+   * room there is is asked by the first rank. Collective. */
+  void require_room(const std::string  &path,
+                    const std::uint64_t bytes,
+                    MPI_Comm            communicator);
+
+  /** Returns when what was written to the file @p path is on the disk. Throws FileError
+   * where that cannot be. */
+  void send_to_disk(const std::string &path);
+
   /** Keeps Open MPI from semaphores that a crash leaves behind, on which later programs
    * hang when they open a file together: before MPI is initialised. What the user's own
    * environment says counts. */

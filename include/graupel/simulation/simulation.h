@@ -76,8 +76,7 @@ namespace graupel
     /** The settled bed of another run that this one begins with. */
     std::optional<DemState> given_bed;
     /** The checkpoint that this run goes on from. */
-    std::optional<std::pair<RunState, DemState>> checkpoint;
-    std::vector<std::string>                     changed_parameters;
+    std::optional<Checkpoint> checkpoint;
 
     /** Behind filling and settling. */
     static constexpr std::size_t first_flow_phase = 2;

@@ -1,3 +1,4 @@
+#include <graupel/base/checksum.h>
 #include <graupel/base/files.h>
 #include <graupel/base/parameters.h>
 #include <graupel/simulation/files/checkpoint.h>
@@ -21,7 +22,8 @@ namespace graupel
 {
   namespace
   {
-    namespace fs = std::filesystem;
+    namespace fs  = std::filesystem;
+    namespace mpi = dealii::Utilities::MPI;
 
     // Numbers only, by their bytes: a checkpoint is read by the same version.
     template <class Archive, class Record>
@@ -79,18 +81,168 @@ namespace graupel
       archive &state.stable_step &state.averaged_time &state.partition;
     }
 
-    // The version goes first; false if the file is another's.
-    bool
-    check_version(boost::archive::binary_iarchive &archive)
+    // The first line of what the program writes for itself.
+    const std::string first_line = "Graupel " GRAUPEL_VERSION;
+
+    // The particles in a file behind a first line and what @p write_head puts into an
+    // archive. Collective.
+    template <class WriteHead>
+    void
+    write_records(const std::string &file,
+                  const WriteHead   &write_head,
+                  const DemState    &particles,
+                  MPI_Comm           communicator)
     {
-      std::string version;
-      archive    &version;
-      return version == GRAUPEL_VERSION;
+      std::ostringstream head;
+      head << first_line << '\n';
+      boost::archive::binary_oarchive archive(head);
+      write_head(archive);
+      archive << particles.common;
+      write_particles(file, head.str(), particles, communicator);
     }
 
-    const char *const another_version =
-      " was written by another version of the program and cannot be read";
-    const char *const damaged = " is cut off or damaged";
+    // A file of write_records() behind its first line.
+    std::ifstream
+    open_records(const std::string &file)
+    {
+      std::ifstream stream(file, std::ios::binary);
+      stream.ignore(first_line.size() + 1);
+      return stream;
+    }
+
+    template <class ReadHead>
+    void
+    read_records(const std::string &file,
+                 const ReadHead    &read_head,
+                 DemState          &particles,
+                 MPI_Comm           communicator)
+    {
+      std::ifstream                   stream = open_records(file);
+      boost::archive::binary_iarchive archive(stream);
+      read_head(archive);
+      archive >> particles.common;
+      read_particles(stream, particles, communicator);
+    }
+
+    // What is wrong with such a file, to be asked before it is read; empty if nothing.
+    // Collective.
+    std::string
+    problem_of_file(const std::string &file, MPI_Comm communicator)
+    {
+      if (const auto problem = problem_of_records(file, communicator); !problem.empty())
+        return problem;
+      std::ifstream stream(file, std::ios::binary);
+      std::string   line;
+      std::getline(stream, line);
+      return line == first_line
+               ? ""
+               : file +
+                   " was written by another version of the program and cannot be read";
+    }
+
+    // A file of a checkpoint beside state.bin, and what was written to it.
+    struct FileEntry
+    {
+      std::string name;
+      Checksum    checksum;
+
+      template <class Archive>
+      void
+      serialize(Archive &archive, const unsigned int)
+      {
+        archive &name &checksum;
+      }
+    };
+
+    // All that there are in a folder. Collective.
+    std::vector<FileEntry>
+    entries_of(const std::string &folder, MPI_Comm communicator)
+    {
+      std::vector<FileEntry> entries;
+      if (mpi::this_mpi_process(communicator) == 0)
+        for (const auto &file : fs::directory_iterator(folder))
+          entries.push_back({file.path().filename().string(), {}});
+      entries = mpi::broadcast(communicator, entries, 0);
+      for (FileEntry &entry : entries)
+        {
+          const std::string file = folder + "/" + entry.name;
+          const auto        sum  = checksum_of_file(file, 0, communicator);
+          if (!sum)
+            throw FileError(file, "it cannot be read again");
+          entry.checksum = *sum;
+        }
+      return entries;
+    }
+
+    std::string
+    state_file(const std::string &folder)
+    {
+      return folder + "/state.bin";
+    }
+
+    // What is wrong with a checkpoint; empty if nothing. Collective.
+    std::string
+    problem_of_checkpoint(const std::string &folder, MPI_Comm communicator)
+    {
+      const std::string file = state_file(folder);
+      if (const auto problem = problem_of_file(file, communicator); !problem.empty())
+        return problem;
+      std::vector<FileEntry> entries;
+      {
+        std::ifstream                   stream = open_records(file);
+        boost::archive::binary_iarchive archive(stream);
+        archive >> entries;
+      }
+      for (const FileEntry &entry : entries)
+        {
+          const std::string path = folder + "/" + entry.name;
+          const auto        sum  = checksum_of_file(path, 0, communicator);
+          if (!sum)
+            return path + " is missing";
+          if (sum->length != entry.checksum.length)
+            return path + " has " + std::to_string(sum->length) + " bytes, and had " +
+                   std::to_string(entry.checksum.length);
+          if (!(*sum == entry.checksum))
+            return path + " is damaged";
+        }
+      return {};
+    }
+
+    std::string
+    unfinished(const std::string &folder)
+    {
+      return folder + ".new";
+    }
+
+    std::string
+    earlier(const std::string &folder)
+    {
+      return folder + ".old";
+    }
+
+    // The unfinished checkpoint, which is whole, becomes the last one, and the last one
+    // the one before. Collective.
+    void
+    move_on(const std::string &folder, MPI_Comm communicator)
+    {
+      if (mpi::this_mpi_process(communicator) == 0)
+        {
+          if (fs::exists(folder))
+            {
+              fs::remove_all(earlier(folder));
+              fs::rename(folder, earlier(folder));
+            }
+          fs::rename(unfinished(folder), folder);
+        }
+      MPI_Barrier(communicator);
+    }
+
+    // Whether there is such a folder, as the first rank sees it.
+    bool
+    is_there(const std::string &folder, MPI_Comm communicator)
+    {
+      return mpi::broadcast(communicator, fs::is_directory(folder), 0);
+    }
   } // namespace
 
   std::string
@@ -106,81 +258,80 @@ namespace graupel
                    const std::function<void(const std::string &)> &write_more,
                    MPI_Comm                                        communicator)
   {
-    const bool is_writer = dealii::Utilities::MPI::this_mpi_process(communicator) == 0;
-    const std::string unfinished = folder + ".new", last = folder + ".old";
-    if (is_writer)
+    const std::string next = unfinished(folder);
+    if (mpi::this_mpi_process(communicator) == 0)
       {
-        fs::remove_all(unfinished);
-        fs::create_directory(unfinished);
+        fs::remove_all(next);
+        fs::create_directory(next);
       }
     MPI_Barrier(communicator);
-    std::ostringstream head;
-    {
-      boost::archive::binary_oarchive archive(head);
-      const std::string               version = GRAUPEL_VERSION;
-      archive << version;
-      RunState copy(state);
-      exchange(archive, copy);
-      archive << particles.common;
-    }
-    write_particles(unfinished + "/state.bin", head.str(), particles, communicator);
-    write_more(checkpoint_fields(unfinished));
+    write_more(checkpoint_fields(next));
     MPI_Barrier(communicator);
-    if (is_writer)
-      {
-        fs::remove_all(last);
-        if (fs::exists(folder))
-          fs::rename(folder, last);
-        fs::rename(unfinished, folder);
-        fs::remove_all(last);
-      }
-    MPI_Barrier(communicator);
+    // With state.bin, which comes last, the checkpoint is whole.
+    const auto entries = entries_of(next, communicator);
+    if (mpi::this_mpi_process(communicator) == 0)
+      for (const FileEntry &entry : entries)
+        send_to_disk(next + "/" + entry.name);
+    write_records(
+      state_file(next),
+      [&](auto &archive) {
+        archive << entries;
+        RunState copy(state);
+        exchange(archive, copy);
+      },
+      particles,
+      communicator);
+    move_on(folder, communicator);
   }
 
-  void
-  finish_checkpoint(const std::string &folder, MPI_Comm communicator)
+  Checkpoint
+  read_checkpoint(const std::string   &folder,
+                  const RunParameters &parameters,
+                  MPI_Comm             communicator)
   {
-    // It is whole once the last one has another name.
-    const std::string unfinished = folder + ".new";
-    if (dealii::Utilities::MPI::this_mpi_process(communicator) == 0 &&
-        !fs::exists(folder) && fs::exists(folder + ".old") && fs::exists(unfinished))
-      fs::rename(unfinished, folder);
-    MPI_Barrier(communicator);
-  }
+    // It was killed before it had its name.
+    if (is_there(unfinished(folder), communicator) &&
+        problem_of_checkpoint(unfinished(folder), communicator).empty())
+      move_on(folder, communicator);
 
-  std::pair<RunState, DemState>
-  read_checkpoint(const std::string        &folder,
-                  const RunParameters      &parameters,
-                  std::vector<std::string> &changes,
-                  MPI_Comm                  communicator)
-  {
-    const std::string             file = folder + "/state.bin";
-    std::ifstream                 stream(file, std::ios::binary);
-    std::pair<RunState, DemState> result;
-    require(static_cast<bool>(stream),
-            "Output/directory",
-            "there is no checkpoint " + folder +
+    Checkpoint  result;
+    std::string problems;
+    for (const std::string &candidate : {folder, earlier(folder)})
+      if (result.folder.empty() && is_there(candidate, communicator))
+        {
+          const auto problem = problem_of_checkpoint(candidate, communicator);
+          if (problem.empty())
+            result.folder = candidate;
+          else
+            problems += (problems.empty() ? "" : "; ") + problem;
+        }
+    if (result.folder.empty())
+      throw InputError(
+        "Output/directory",
+        problems.empty()
+          ? "there is no checkpoint " + folder +
               " to resume from; run without --resume, or name the directory of the run "
-              "that stopped with --output");
-    try
-      {
-        boost::archive::binary_iarchive archive(stream);
-        require(check_version(archive), "Output/directory", file + another_version);
-        exchange(archive, result.first);
-        archive >> result.second.common;
-      }
-    catch (const boost::archive::archive_exception &)
-      {
-        throw InputError("Output/directory", file + damaged);
-      }
-    require(read_particles(stream, result.second, communicator),
-            "Output/directory",
-            file + damaged);
-    changes = check_changes(parameters.texts,
-                            result.first.parameters,
-                            result.first.phase.empty() ? Standing::between_phases
-                                                       : Standing::within_phase,
-                            "the checkpoint " + folder);
+              "that stopped with --output"
+          : problems + "; begin anew without --resume");
+    if (!problems.empty())
+      result.told.push_back("warning: " + problems +
+                            "; the run goes on from the checkpoint before");
+
+    read_records(
+      state_file(result.folder),
+      [&](auto &archive) {
+        std::vector<FileEntry> entries;
+        archive >> entries;
+        exchange(archive, result.state);
+      },
+      result.particles,
+      communicator);
+    for (const std::string &change : check_changes(
+           parameters.texts,
+           result.state.parameters,
+           result.state.phase.empty() ? Standing::between_phases : Standing::within_phase,
+           "the checkpoint " + result.folder))
+      result.told.push_back("changed: " + change);
     return result;
   }
 
@@ -190,13 +341,8 @@ namespace graupel
             const DemState      &particles,
             MPI_Comm             communicator)
   {
-    std::ostringstream head;
-    {
-      boost::archive::binary_oarchive archive(head);
-      const std::string               version = GRAUPEL_VERSION;
-      archive << version << parameters.texts << particles.common;
-    }
-    write_particles(file, head.str(), particles, communicator);
+    write_records(
+      file, [&](auto &archive) { archive << parameters.texts; }, particles, communicator);
   }
 
   DemState
@@ -205,24 +351,17 @@ namespace graupel
            MPI_Comm             communicator)
   {
     const std::string parameter = "Filling/start from";
-    std::ifstream     stream(file, std::ios::binary);
-    require(static_cast<bool>(stream),
+    const bool        exists    = mpi::broadcast(communicator, fs::exists(file), 0);
+    require(exists,
             parameter,
             "there is no settled bed " + file +
               "; name the output directory of a run whose bed has settled");
+    const auto problem = problem_of_file(file, communicator);
+    require(problem.empty(), parameter, problem + "; let the bed settle anew");
     ParameterTexts there;
     DemState       result;
-    try
-      {
-        boost::archive::binary_iarchive archive(stream);
-        require(check_version(archive), parameter, file + another_version);
-        archive >> there >> result.common;
-      }
-    catch (const boost::archive::archive_exception &)
-      {
-        throw InputError(parameter, file + damaged);
-      }
-    require(read_particles(stream, result, communicator), parameter, file + damaged);
+    read_records(
+      file, [&](auto &archive) { archive >> there; }, result, communicator);
     check_changes(parameters.texts, there, Standing::settled_bed, "the bed " + file);
     return result;
   }

@@ -1,7 +1,10 @@
+#include <graupel/base/checksum.h>
+#include <graupel/base/even_share.h>
 #include <graupel/base/files.h>
 #include <graupel/simulation/files/particle_records.h>
 
-#include <limits>
+#include <filesystem>
+#include <fstream>
 
 namespace graupel
 {
@@ -33,14 +36,6 @@ namespace graupel
     bytes(const Record *records, const std::size_t n)
     {
       return {reinterpret_cast<const char *>(records), n * sizeof(Record)};
-    }
-
-    // The n-th of so many even shares begins here.
-    std::int64_t
-    begin_of_share(const std::int64_t n, const std::int64_t all, MPI_Comm communicator)
-    {
-      const std::int64_t n_ranks = mpi::n_mpi_processes(communicator);
-      return all / n_ranks * n + std::min(n, all % n_ranks);
     }
 
     template <class Record>
@@ -77,29 +72,47 @@ namespace graupel
                                  bytes(particles.data(), particles.size())},
                                 {of_contacts + below.contacts * sizeof(LooseContact),
                                  bytes(state.contacts.data(), state.contacts.size())}};
+    Checksum              whole(head);
+    whole.add(Checksum(bytes(&all, 1)));
+    whole.add(joined(Checksum(parts[0].bytes), communicator));
+    whole.add(joined(Checksum(parts[1].bytes), communicator));
     if (mpi::this_mpi_process(communicator) == 0)
       {
         parts.push_back({0, head});
         parts.push_back({static_cast<std::uint64_t>(length), bytes(&all, 1)});
+        parts.push_back({whole.length, bytes(&whole, 1)});
       }
     write_file(file, parts, communicator);
   }
 
-  bool
+  std::string
+  problem_of_records(const std::string &file, MPI_Comm communicator)
+  {
+    if (const bool exists = std::filesystem::exists(file);
+        mpi::min(exists ? 1 : 0, communicator) == 0)
+      return file + " is missing";
+    const auto here = checksum_of_file(file, sizeof(Checksum), communicator);
+    Checksum   written;
+    if (here)
+      {
+        std::ifstream stream(file, std::ios::binary);
+        stream.seekg(here->length);
+        stream.read(reinterpret_cast<char *>(&written), sizeof(written));
+      }
+    const bool is_whole = here && *here == written;
+    return mpi::min(is_whole ? 1 : 0, communicator) == 1
+             ? ""
+             : file + " is cut off or damaged";
+  }
+
+  void
   read_particles(std::istream &stream, DemState &state, MPI_Comm communicator)
   {
     Numbers all;
     stream.read(reinterpret_cast<char *>(&all), sizeof(all));
     const std::int64_t of_particles = stream.tellg();
     const std::int64_t of_contacts  = of_particles + all.particles * sizeof(Particle);
-    const std::int64_t end          = of_contacts + all.contacts * sizeof(LooseContact);
-    stream.seekg(0, std::ios::end);
-    if (!stream || stream.tellg() != end)
-      return false;
-
-    const std::int64_t rank  = mpi::this_mpi_process(communicator);
-    const std::int64_t first = begin_of_share(rank, all.particles, communicator);
-    const std::int64_t last  = begin_of_share(rank + 1, all.particles, communicator);
+    const auto [first, last]        = even_share(all.particles, communicator);
     // With the one behind, which tells where the contacts of the last one end.
     std::vector<Particle> &particles = state.particles;
     particles.resize(std::min(last + 1, all.particles) - first);
@@ -113,6 +126,6 @@ namespace graupel
       particle.first_contact -= first_contact;
     state.contacts.resize(end_of_contacts - first_contact);
     read(stream, of_contacts + first_contact * sizeof(LooseContact), state.contacts);
-    return static_cast<bool>(stream);
+    AssertThrow(stream, dealii::ExcIO());
   }
 } // namespace graupel

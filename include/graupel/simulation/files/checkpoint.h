@@ -40,11 +40,23 @@ namespace graupel
     std::vector<unsigned int> partition;          // of the mesh
   };
 
+  /** A checkpoint that was read. */
+  struct Checkpoint
+  {
+    std::string folder;
+    RunState    state;
+    /** A share of them on each rank. */
+    DemState particles;
+    /** What is to be said of it: damage to a later one, parameters that have changed. */
+    std::vector<std::string> told;
+  };
+
   /**
-   * Writes the checkpoint @p folder in place of the last one: @p state (as rank 0 has
-   * it), the @p particles of all ranks (see write_particles()) and whatever @p write_more
-   * puts into files whose names begin with its argument. The last checkpoint stays until
-   * the new one is whole. Collective.
+   * Writes the checkpoint @p folder: @p state (as rank 0 has it), the @p particles of all
+   * ranks (see write_particles()) and whatever @p write_more puts into files whose names
+   * begin with its argument. A list of these with their checksums goes into state.bin,
+   * which is written last. The last checkpoint stays as FOLDER.old; wherever the program
+   * is killed, one or the other is whole. Collective.
    */
   void write_checkpoint(const std::string                              &folder,
                         const RunState                                 &state,
@@ -52,23 +64,18 @@ namespace graupel
                         const std::function<void(const std::string &)> &write_more,
                         MPI_Comm                                        communicator);
 
-  /** Does what write_checkpoint() had left to do where it was killed between taking the
-   * last checkpoint away and naming the new one. Collective. */
-  void finish_checkpoint(const std::string &folder, MPI_Comm communicator);
-
   /** Where write_more() of the checkpoint @p folder has put its files. */
   std::string checkpoint_fields(const std::string &folder);
 
   /**
-   * Reads a checkpoint, each rank a share of the particles. Throws
-   * InputError("Output/directory", ...) without one, and InputError naming the parameter
-   * where a value differs that a resumed run may not change (may_change()). What has
-   * changed and may is told in @p changes.
+   * Reads the last checkpoint that is whole: @p folder, or the one before. Throws
+   * InputError("Output/directory", ...) without one, with the files that are missing or
+   * damaged, and InputError naming the parameter where a value differs that a resumed run
+   * may not change (may_change()). Collective.
    */
-  std::pair<RunState, DemState> read_checkpoint(const std::string        &folder,
-                                                const RunParameters      &parameters,
-                                                std::vector<std::string> &changes,
-                                                MPI_Comm                  communicator);
+  Checkpoint read_checkpoint(const std::string   &folder,
+                             const RunParameters &parameters,
+                             MPI_Comm             communicator);
 
   /** Writes a settled bed to @p file. Collective. */
   void write_bed(const std::string   &file,
@@ -78,7 +85,7 @@ namespace graupel
 
   /** Reads it, each rank a share of the particles. Throws InputError("Filling/start
    * from", ...) where there is none, and InputError naming the parameter where it is
-   * another vessel's or other particles. */
+   * another vessel's or other particles. Collective. */
   DemState read_bed(const std::string   &file,
                     const RunParameters &parameters,
                     MPI_Comm             communicator);

@@ -14,7 +14,7 @@ namespace graupel
    * length each, the particles and the contacts of all ranks, each by the rank that has
    * them:
    *
-   *   head | number of particles, of contacts | particles | contacts
+   *   head | number of particles, of contacts | particles | contacts | checksum
    *
    * Where the contacts of a particle begin is counted over the whole file. Throws
    * FileError, on all ranks, if it cannot be written. Collective.
@@ -24,12 +24,13 @@ namespace graupel
                        const DemState    &state,
                        MPI_Comm           communicator);
 
-  /**
-   * Reads an even share of the particles of a file whose head has just been read from
-   * @p stream into @p state. False, on all ranks, if the file does not end where it
-   * should.
-   */
-  bool read_particles(std::istream &stream, DemState &state, MPI_Comm communicator);
+  /** What is wrong with a file of write_particles(), to be asked before it is read: that
+   * it is missing, or is not what was written. Empty if nothing. Collective. */
+  std::string problem_of_records(const std::string &file, MPI_Comm communicator);
+
+  /** Reads an even share of the particles of a file without problem_of_records(), whose
+   * head has just been read from @p stream, into @p state. */
+  void read_particles(std::istream &stream, DemState &state, MPI_Comm communicator);
 } // namespace graupel
 
 #endif

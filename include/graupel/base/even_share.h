@@ -1,0 +1,31 @@
+#ifndef graupel_base_even_share_h
+#define graupel_base_even_share_h
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <cstdint>
+
+namespace graupel
+{
+  /** Numbers from begin to end - 1. */
+  struct Share
+  {
+    std::int64_t begin = 0, end = 0;
+  };
+
+  /** This rank's share of 0 to @p n - 1, which are divided evenly among all ranks in
+   * their order. */
+  inline Share
+  even_share(const std::int64_t n, MPI_Comm communicator)
+  {
+    const std::int64_t n_ranks = dealii::Utilities::MPI::n_mpi_processes(communicator);
+    const std::int64_t rank    = dealii::Utilities::MPI::this_mpi_process(communicator);
+    const auto         begin   = [&](const std::int64_t of) {
+      return n / n_ranks * of + std::min(of, n % n_ranks);
+    };
+    return {begin(rank), begin(rank + 1)};
+  }
+} // namespace graupel
+
+#endif
