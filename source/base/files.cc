@@ -162,6 +162,7 @@ namespace graupel
       failure = mpi::broadcast(communicator, failure, first);
       if (rank == 0)
         remove_part(path);
+      MPI_Barrier(communicator);
       throw FileError(path, failure);
     };
 
@@ -181,15 +182,20 @@ namespace graupel
     write_file(path, {{begin, part}}, communicator);
   }
 
+  std::uint64_t
+  room_on_disk(const std::string &path, MPI_Comm communicator)
+  {
+    std::error_code     nobody_asks; // the room is unlimited then
+    const auto          folder = std::filesystem::path(path).parent_path();
+    const std::uint64_t room   = std::filesystem::space(folder, nobody_asks).available;
+    return dealii::Utilities::MPI::broadcast(communicator, room, 0);
+  }
+
   void
   require_room(const std::string &path, const std::uint64_t bytes, MPI_Comm communicator)
   {
-    namespace mpi = dealii::Utilities::MPI;
-    std::error_code nobody_asks; // the room is unlimited then
-    const auto      folder = std::filesystem::path(path).parent_path();
-    const auto      room   = mpi::broadcast(
-      communicator, std::filesystem::space(folder, nobody_asks).available, 0);
-    if (const auto all = mpi::sum(bytes, communicator); all > room)
+    const std::uint64_t all = dealii::Utilities::MPI::sum(bytes, communicator);
+    if (all > room_on_disk(path, communicator))
       throw FileError(path,
                       std::make_error_code(std::errc::no_space_on_device).message() +
                         " for " + std::to_string(all) + " bytes");

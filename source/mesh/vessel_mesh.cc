@@ -65,6 +65,26 @@ namespace graupel
       return best;
     }
 
+    // Of coarse cells along the axis.
+    unsigned int
+    layers_of(const CoarseDisc     &disc,
+              const Cylinder       &cylinder,
+              const MeshParameters &parameters)
+    {
+      const double height =
+        parameters.cell_height > 0. ? parameters.cell_height : parameters.cell_size;
+      return std::max(1l,
+                      std::lround(cylinder.height / (height * (1u << disc.refinements))));
+    }
+
+    // To the nearest size that halving cells reaches.
+    unsigned int
+    halvings(const double volume, const double n_cells, const double cell_size)
+    {
+      return std::max(
+        0., std::ceil(std::log2(std::cbrt(volume / n_cells) / cell_size) - 0.5));
+    }
+
     // The coarse cylinder: boundary ids set, curved on the lateral faces alone.
     // Manifold ids are set by hand, since set_all_manifold_ids_on_boundary would
     // take lines of the end caps along and invert cells.
@@ -151,6 +171,25 @@ namespace graupel
     }
   } // namespace
 
+  double
+  VesselMesh::n_expected_cells(const Cylinder &cylinder, const MeshParameters &parameters)
+  {
+    if (!parameters.file.empty())
+      {
+        MeshParameters coarse = parameters;
+        coarse.cell_size      = cylinder.diameter + cylinder.height;
+        const VesselMesh mesh(cylinder, coarse, MPI_COMM_SELF);
+        const double     n      = mesh.forest.n_global_active_cells();
+        const double     volume = dealii::GridTools::volume(mesh.forest, mesh.quadratic);
+        return n * std::pow(8., halvings(volume, n, parameters.cell_size));
+      }
+    const CoarseDisc         disc = disc_for(cylinder.diameter, parameters.cell_size);
+    dealii::Triangulation<2> coarse;
+    disc.make(coarse, cylinder.diameter / 2.);
+    return std::pow(8., disc.refinements) * coarse.n_active_cells() *
+           layers_of(disc, cylinder, parameters);
+  }
+
   VesselMesh::VesselMesh(const Cylinder       &cylinder,
                          const MeshParameters &parameters,
                          MPI_Comm              communicator)
@@ -166,12 +205,9 @@ namespace graupel
         make_from_file(parameters.file, parameters.cell_size);
         return;
       }
-    boundary_ids          = {{"wall", wall}, {"bottom", bottom}, {"top", top}};
-    const CoarseDisc disc = disc_for(cylinder.diameter, parameters.cell_size);
-    const double     height =
-      parameters.cell_height > 0. ? parameters.cell_height : parameters.cell_size;
-    const auto layers = static_cast<unsigned int>(
-      std::max(1l, std::lround(cylinder.height / (height * (1u << disc.refinements)))));
+    boundary_ids              = {{"wall", wall}, {"bottom", bottom}, {"top", top}};
+    const CoarseDisc   disc   = disc_for(cylinder.diameter, parameters.cell_size);
+    const unsigned int layers = layers_of(disc, cylinder, parameters);
 
     dealii::Triangulation<3> solid;
     make_coarse_cylinder(cylinder, disc, layers, solid);
@@ -221,13 +257,9 @@ namespace graupel
     curve_wall(vessel, solid);
     forest.copy_triangulation(solid); // takes the manifolds of solid, which has none
     forest.set_manifold(curved, dealii::CylindricalManifold<3>(2));
-    // To the nearest size that halving reaches.
     const double volume = dealii::GridTools::volume(forest, quadratic);
-    while (std::cbrt(volume / forest.n_global_active_cells()) > std::sqrt(2.) * cell_size)
-      {
-        forest.refine_global();
-        ++initial_level;
-      }
+    initial_level       = halvings(volume, forest.n_global_active_cells(), cell_size);
+    forest.refine_global(initial_level);
     contour = std::make_shared<const MeshOutline>(vessel, forest, curved, boundary_ids);
   }
 

@@ -1,5 +1,9 @@
+#include <graupel/base/files.h>
+#include <graupel/base/read_numbers.h>
 #include <graupel/dem/bed/bed_profiles.h>
+#include <graupel/dem/particles/dem_error.h>
 #include <graupel/simulation/observers/wall_forces.h>
+#include <graupel/simulation/parameters/run_size.h>
 #include <graupel/simulation/parameters/step_limits.h>
 #include <graupel/simulation/phases/original_bed.h>
 #include <graupel/simulation/phases/packing_phases.h>
@@ -71,6 +75,7 @@ namespace graupel
       state.progress.say("warning: " + difference);
     for (const std::string &warning : warnings(state.parameters))
       state.progress.say("warning: " + warning);
+    warn_of_disk();
     if (checkpoint)
       go_on_from(checkpoint->state);
     while (phase_number < n_phases())
@@ -125,8 +130,23 @@ namespace graupel
   }
 
   void
+  Simulation::warn_of_disk() const
+  {
+    const double needed = expected_size(state.parameters).disk;
+    const double room   = room_on_disk(files.path("log.txt"), state.communicator);
+    if (needed > room)
+      state.progress.say(
+        "warning: Output/directory = " + state.parameters.output.directory +
+        " has room for " + text_of(1e-9 * room, 3) + " GB, and the run may write " +
+        text_of(1e-9 * needed, 3) +
+        " GB. Take another disk, or a longer Output/interval");
+  }
+
+  void
   Simulation::step_or_fail(Phase &phase, bool &goes_on)
   {
+    const std::string where =
+      std::string(phase.kind()) + ", step from " + text_of(state.time) + " s: ";
     try
       {
         goes_on = phase.step();
@@ -135,10 +155,20 @@ namespace graupel
       {
         save();
         throw SolverFailure(
-          std::string(error.what()) + " The state before it is in " +
+          where + error.what() + " The state before it is in " +
           files.path("checkpoint") +
           ": go on from there with --resume and other values, such as --set \"Flow/time "
           "step=...\".");
+      }
+    catch (const DemError &error)
+      {
+        // The particles have moved: their state is not one to go on from.
+        throw DemError(where + error.what() +
+                       (last_save
+                          ? " The last checkpoint, of " + text_of(*last_save) +
+                              " s, is in " + files.path("checkpoint") +
+                              ": --resume goes on from there, also with other values."
+                          : std::string()));
       }
   }
 

@@ -131,6 +131,7 @@ namespace graupel
         state.mesh.save(file, bytes);
       },
       state.communicator);
+    last_save        = state.time;
     const double now = Progress::steady_seconds();
     save_seconds     = now - begin;
     last_look        = now;
@@ -184,6 +185,7 @@ namespace graupel
     state.dem.restore(checkpoint->particles);
 
     state.time           = saved.time;
+    last_save            = saved.time;
     next_output          = saved.next_output;
     next_observation     = saved.next_observation;
     state.next_adaption  = saved.next_adaption;

@@ -286,6 +286,35 @@ class InTime(CaseTest):
         self.assert_within(middle, 0.02 - 3.4e-3, 1e-3, "middle of the corks")
 
 
+class Ranks(CaseTest):
+    """What a division among ranks must not show."""
+
+    def test_the_solver_hardly_notices(self):
+        # The first steps of a flow that jumps to its velocity, on 0.5.0 none on two ranks.
+        values = {
+            "Flow/mode": "transient",
+            "Flow/time step": 2e-3,
+            "Flow/duration": 0.006,
+            "Flow/ramp time": 0,
+            "Output/report": "false",
+        }
+        alone, *others = (
+            self.run_file(ROOT / "prm" / "packed-bed" / "short.prm", values, ranks=ranks)
+            for ranks in (1, 2, 3)
+        )
+        for run in (alone, *others):
+            self.assertEqual(run.status, 0, run)
+            self.assert_close(run.case["pressure_drop"], alone.case["pressure_drop"], 1e-8, "drop")
+            here, there = (
+                [row["linear_iterations"] for row in one.rows("monitors.csv") if row["phase"] == "flow"]
+                for one in (run, alone)
+            )
+            self.assertEqual(len(here), len(there))
+            self.assertGreater(here[0], 1)
+            self.assertLessEqual(here[0], 1.5 * there[0], "iterations of the first step")
+            self.assertLessEqual(sum(here), 1.5 * sum(there), "iterations")
+
+
 class Sizes(CaseTest):
     """Spheres by their own sizes, whatever the type's diameter."""
 
@@ -463,6 +492,15 @@ class CheckedBeforehand(CaseTest):
             self.checked(
                 "orig", {**correlation, **values}, says=["Original bed/void fraction", reason]
             )
+
+    def test_numbers_that_no_run_has(self):
+        for name, value, words in (
+            ("Contact/substep", 5e-324, "inf substeps of the particles"),
+            ("Flow/time step", 1e-13, "steps of the fluid"),
+            ("Output/interval", 1e-9, "sets of ParaView files"),
+            ("Mesh/cell size", 2e-5, "larger cells"),
+        ):
+            self.checked("bed20", {"Flow/superficial velocities": 0.3, name: value}, (name, words))
 
     def test_files_that_are_not_there(self):
         self.checked("bed20", {"Walls/surfaces": "missing.stl"}, says=["missing.stl"])

@@ -1,9 +1,10 @@
 #include <graupel/base/parameter_entries.h>
 #include <graupel/base/parameters.h>
-#include <graupel/simulation/parameters/run_parameters.h>
+#include <graupel/simulation/parameters/run_size.h>
 
 #include <gtest/gtest.h>
 
+#include <cstring>
 #include <filesystem>
 
 using namespace graupel;
@@ -140,4 +141,77 @@ TEST(Parameters, ExpressionsAreCheckedBeforeTheRun)
     }
   parameters.drag.expression = "s*s*Cd";
   EXPECT_NO_THROW(parameters.check());
+}
+
+namespace
+{
+  RunParameters
+  example(const std::string &name, const std::vector<std::string> &assignments)
+  {
+    RunParameters            parameters;
+    dealii::ParameterHandler prm;
+    parameters.declare(prm);
+    ParameterFile file(prm);
+    file.read(GRAUPEL_SOURCE_DIR "/prm/" + name);
+    for (const std::string &assignment : assignments)
+      file.set(assignment);
+    parameters.check();
+    return parameters;
+  }
+} // namespace
+
+TEST(RunSize, CellsAreThoseOfTheMesh)
+{
+  for (const char *name : {"packed-bed/ricklick-2x.prm", "vessels/side-inlet.prm"})
+    for (const char *cell_size : {"4e-3", "2.3e-3", "1.6e-3"})
+      {
+        const RunParameters parameters =
+          example(name, {std::string("Mesh/cell size=") + cell_size});
+        const VesselMesh mesh(parameters.cylinder, parameters.mesh, MPI_COMM_WORLD);
+        EXPECT_EQ(expected_size(parameters).cells,
+                  mesh.triangulation().n_global_active_cells())
+          << name << ' ' << cell_size;
+      }
+}
+
+TEST(RunSize, ParticlesAndStepsAreThoseThatAreAskedFor)
+{
+  const RunSize size = expected_size(example("packed-bed/ricklick-2x.prm",
+                                             {"Filling/count=1234",
+                                              "Flow/mode=transient",
+                                              "Flow/time step=1e-3",
+                                              "Flow/duration=0.5",
+                                              "Flow/superficial velocities=0.3, 0.4"}));
+  EXPECT_EQ(size.particles, 1234.);
+  EXPECT_NEAR(size.fluid_steps, 1000., 1e-6);
+  const RunSize none = expected_size(
+    example("packed-bed/ricklick-2x.prm", {"Filling/method=none", "Filling/count=0"}));
+  EXPECT_EQ(none.particles, 0.);
+  EXPECT_EQ(none.substeps, 0.);
+}
+
+TEST(RunSize, WhatNoMachineHasIsRefusedByName)
+{
+  const auto refusal = [](const std::string &assignment) -> std::string {
+    try
+      {
+        check_size(example("packed-bed/ricklick-2x.prm", {assignment}), MPI_COMM_WORLD);
+      }
+    catch (const InputError &error)
+      {
+        return error.parameter + ": " + error.what();
+      }
+    return "accepted";
+  };
+  EXPECT_EQ(refusal("Filling/seed=2"), "accepted");
+  for (const char *assignment : {"Contact/substep=5e-324",
+                                 "Contact/substep=1e-12",
+                                 "Flow/time step=1e-13",
+                                 "Output/interval=1e-9",
+                                 "Mesh/cell size=2.6e-5"})
+    {
+      const std::string name(assignment, std::strchr(assignment, '='));
+      EXPECT_EQ(refusal(assignment).substr(0, name.size() + 2), name + ": ")
+        << refusal(assignment);
+    }
 }

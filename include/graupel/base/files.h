@@ -46,9 +46,13 @@ namespace graupel
                   const std::string &part,
                   MPI_Comm           communicator);
 
+  /** Bytes that the disk of the folder of @p path has room for, as the first rank sees it.
+   * Collective. */
+  std::uint64_t room_on_disk(const std::string &path, MPI_Comm communicator);
+
   /** Throws FileError on all ranks where the disk of the folder of @p path has no room for
-   * @p bytes of each rank, before they are written by a library that would abort. What
-   * room there is is asked by the first rank. Collective. */
+   * @p bytes of each rank, before they are written by a library that would abort.
+   * Collective. */
   void require_room(const std::string  &path,
                     const std::uint64_t bytes,
                     MPI_Comm            communicator);

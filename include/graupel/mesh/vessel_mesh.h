@@ -50,6 +50,11 @@ namespace graupel
       top    = 2
     };
 
+    /** Cells of a mesh of these parameters, without making it. Throws as the constructor.
+     */
+    static double n_expected_cells(const Cylinder       &cylinder,
+                                   const MeshParameters &parameters);
+
     /** Throws InputError("Mesh/file", ...) for a file that cannot be used. */
     VesselMesh(const Cylinder       &cylinder,
                const MeshParameters &parameters,

@@ -53,6 +53,7 @@ namespace graupel
     std::size_t            n_phases() const;
     std::unique_ptr<Phase> make_phase(const std::size_t number);
     void                   run_phase(Phase &phase);
+    void                   warn_of_disk() const;
     void                   step_or_fail(Phase &phase, bool &goes_on);
     void                   observe(Phase &phase);
     void                   present_bed();
@@ -81,13 +82,14 @@ namespace graupel
     /** Behind filling and settling. */
     static constexpr std::size_t first_flow_phase = 2;
 
-    std::size_t phase_number = 0;
-    Phase      *phase_now    = nullptr; // between its steps
-    double      next_output;            // [s]
-    double      next_observation = 0.;  // of packing [s]
-    double      started;                // wall clock; before that of a resumed run [s]
-    double      next_save = 0.;         // wall clock [s]
-    double      last_look = 0.;         // by save_or_stop(), wall clock [s]
+    std::size_t           phase_number = 0;
+    Phase                *phase_now    = nullptr; // between its steps
+    double                next_output;            // [s]
+    double                next_observation = 0.;  // of packing [s]
+    double                started;        // wall clock; before that of a resumed run [s]
+    double                next_save = 0.; // wall clock [s]
+    std::optional<double> last_save;      // when the last checkpoint is of [s]
+    double                last_look = 0.; // by save_or_stop(), wall clock [s]
     // Of a step and of a checkpoint [s].
     double longest_step = 0., save_seconds = 0.;
     double stop_at = std::numeric_limits<double>::infinity(); // wall clock [s]

@@ -144,6 +144,25 @@ namespace graupel
   }
 
   double
+  FillingParameters::n_expected_particles(const Cylinder      &cylinder,
+                                          const DemParameters &particles) const
+  {
+    if (method == "none" || !start_from.empty())
+      return 0.;
+    if (method == "list")
+      {
+        double n = 0.;
+        read_list(cylinder,
+                  particles,
+                  particles.walls.walls(cylinder),
+                  [&](const NewParticle &) { ++n; });
+        return n;
+      }
+    const ParticleSource source(particles.types(), type);
+    return std::round(solid_volume(cylinder, source) / source.mean_volume());
+  }
+
+  double
   FillingParameters::solid_volume(const Cylinder       &cylinder,
                                   const ParticleSource &source) const
   {

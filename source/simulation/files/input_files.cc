@@ -1,12 +1,14 @@
 #include <graupel/dem/vessel/mesh_planes.h>
 #include <graupel/simulation/files/checkpoint.h>
 #include <graupel/simulation/files/input_files.h>
+#include <graupel/simulation/parameters/run_size.h>
 
 namespace graupel
 {
   void
   check_input_files(const RunParameters &parameters)
   {
+    check_size(parameters, MPI_COMM_WORLD);
     // The coarsest mesh there is: what is in the file, unrefined.
     MeshParameters coarse = parameters.mesh;
     coarse.cell_size      = parameters.cylinder.diameter;

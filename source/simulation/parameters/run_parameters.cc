@@ -3,6 +3,7 @@
 #include <graupel/dem/bed/wall_layer.h>
 #include <graupel/simulation/parameters/probe_points.h>
 #include <graupel/simulation/parameters/run_parameters.h>
+#include <graupel/simulation/parameters/run_size.h>
 #include <graupel/simulation/parameters/step_limits.h>
 
 #include <iomanip>
@@ -217,6 +218,15 @@ namespace graupel
     line("simulated particle diameter", simulated_diameter(), "m");
     line("filter length", filter_length(), "m");
     line("cell size aimed at", mesh.cell_size, "m");
+    const RunSize size = expected_size(*this);
+    text << "Expected, within a factor of two or three but for the cells\n";
+    line("cells of the mesh", size.cells, "");
+    line("particles", size.particles, "");
+    line("substeps of the particles", size.substeps, "");
+    line("steps of the fluid", size.fluid_steps, "");
+    line("memory, beside 0.15 GB a rank", 1e-9 * size.memory, "GB");
+    line("room on the disk", 1e-9 * size.disk, "GB");
+    line("CPU time", size.cpu_seconds / 3600., "h");
     text << "Steps\n";
     line("characteristic (Rayleigh) time of a contact", dem.characteristic_time(), "s");
     line("substep of the particles", dem.substep(), "s");

@@ -41,6 +41,11 @@ namespace graupel
      */
     void check(const Cylinder &cylinder, const DemParameters &particles) const;
 
+    /** Particles that will be filled in; 0 where another run's bed is taken, whose file
+     * says it. */
+    double n_expected_particles(const Cylinder      &cylinder,
+                                const DemParameters &particles) const;
+
     /**
      * Gives each particle of the method list to @p take. Throws InputError, with the
      * line, for what cannot be read, has no size of its type, or lies beyond one of the

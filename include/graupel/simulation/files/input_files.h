@@ -8,7 +8,7 @@ namespace graupel
   /**
    * Opens and reads every file that a run of @p parameters will need, and keeps none:
    * mesh, surfaces, particle list, the bed of another run. Throws InputError naming the
-   * parameter of one that cannot be used.
+   * parameter of one that cannot be used. Before, check_size(). Collective.
    */
   void check_input_files(const RunParameters &parameters);
 } // namespace graupel
