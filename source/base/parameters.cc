@@ -306,7 +306,10 @@ namespace graupel
     : handler(handler)
   {
     for (const ParameterEntry &entry : parameter_entries(handler))
-      known.push_back(entry.path);
+      {
+        known.push_back(entry.path);
+        patterns.push_back(entry.pattern);
+      }
   }
 
   void
@@ -375,17 +378,14 @@ namespace graupel
                         const std::string &value,
                         const std::string &origin)
   {
-    if (!std::binary_search(known.begin(), known.end(), path))
+    const auto place = std::lower_bound(known.begin(), known.end(), path);
+    if (place == known.end() || *place != path)
       refuse(origin,
              "there is no parameter " + in_quotes(path) + "; did you mean " +
                in_quotes(nearest_name(path, known)) + "?");
 
     const auto [sections, name] = split_path(path);
-    const auto entries          = parameter_entries(handler);
-    const auto pattern =
-      std::find_if(entries.begin(), entries.end(), [&path = path](const auto &entry) {
-        return entry.path == path;
-      })->pattern;
+    const std::string &pattern  = patterns[place - known.begin()];
 
     // A path is meant relative to the file that names it ("FILE:LINE").
     std::string fitted = value;

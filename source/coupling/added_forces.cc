@@ -20,12 +20,13 @@ namespace graupel
                 dealii::ExcMessage("Fluid and particles share the viscous stress or "
                                    "neither of them."));
     fields = flow.derivatives();
-    for (unsigned int i = 0; i < 3; ++i)
-      {
-        filter.smooth(smooth.acceleration[i], fields.acceleration[i]);
-        filter.smooth(smooth.vorticity[i], fields.vorticity[i]);
-        filter.smooth(smooth.viscous_force[i], fields.viscous_force[i]);
-      }
+    smooth = fields;
+    std::vector<NodalVector *> smoothed;
+    for (NodalVectorField *field :
+         {&smooth.acceleration, &smooth.vorticity, &smooth.viscous_force})
+      for (NodalVector &component : *field)
+        smoothed.push_back(&component);
+    filter.smooth(smoothed);
   }
 
   void

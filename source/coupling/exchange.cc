@@ -134,15 +134,22 @@ namespace graupel
   Exchange::follow(const FlowSolver &flow, const NodalVector &void_fraction)
   {
     gradient = flow.pressure_gradient();
+    std::vector<NodalVector *> smoothed;
+    const auto                 smooth = [&](NodalVector &x, const NodalVector &f) {
+      x.zero_out_ghost_values();
+      x.equ(1., f);
+      smoothed.push_back(&x);
+    };
     for (unsigned int i = 0; i < 3; ++i)
       {
         for (unsigned int k = 0; k < interstitial[i].locally_owned_size(); ++k)
           interstitial[i].local_element(k) =
             flow.flux()[i].local_element(k) / void_fraction.local_element(k);
-        filter.smooth(smooth_velocity[i], interstitial[i]);
+        smooth(smooth_velocity[i], interstitial[i]);
         if (result.shares_pressure)
-          filter.smooth(smooth_gradient[i], gradient[i]);
+          smooth(smooth_gradient[i], gradient[i]);
       }
+    filter.smooth(smoothed);
     if (added)
       added->follow(flow, filter);
   }
@@ -156,11 +163,16 @@ namespace graupel
     find_added_forces(particles);
     answer.assign(particles.n_owned, 1.);
     result.solids.reset();
-    spread(result.drag, [&](const unsigned int row) { return beta[row]; });
+    deposit(result.drag, [&](const unsigned int row) { return beta[row]; });
+    std::vector<NodalVector *> fields{&result.drag};
     for (unsigned int i = 0; i < 3; ++i)
-      spread(result.drag_source[i], [&](const unsigned int row) {
-        return beta[row] * response.velocity[row][i];
-      });
+      {
+        deposit(result.drag_source[i], [&](const unsigned int row) {
+          return beta[row] * response.velocity[row][i];
+        });
+        fields.push_back(&result.drag_source[i]);
+      }
+    filter.spread(fields);
     add_forces();
   }
 
@@ -181,26 +193,32 @@ namespace graupel
     const auto flux = [&](const unsigned int row) {
       return volume[row] * response.mobility[row];
     };
-    spread(result.drag, drag);
-    spread(solids.by_velocity,
-           [&](const unsigned int row) { return flux(row) * drag(row); });
+    std::vector<NodalVector *> fields;
+    const auto                 add = [&](NodalVector &x, const auto &value) {
+      deposit(x, value);
+      fields.push_back(&x);
+    };
+    add(result.drag, drag);
+    add(solids.by_velocity,
+        [&](const unsigned int row) { return flux(row) * drag(row); });
     if (result.shares_pressure)
       {
-        spread(solids.pressure_share,
-               [&](const unsigned int row) { return answer[row] * volume[row]; });
-        spread(solids.by_gradient, [&](const unsigned int row) {
+        add(solids.pressure_share,
+            [&](const unsigned int row) { return answer[row] * volume[row]; });
+        add(solids.by_gradient, [&](const unsigned int row) {
           return flux(row) * answer[row] * volume[row];
         });
       }
     for (unsigned int i = 0; i < 3; ++i)
       {
-        spread(result.drag_source[i], [&](const unsigned int row) {
+        add(result.drag_source[i], [&](const unsigned int row) {
           return drag(row) * response.velocity[row][i];
         });
-        spread(solids.flux[i], [&](const unsigned int row) {
+        add(solids.flux[i], [&](const unsigned int row) {
           return answer[row] * volume[row] * response.velocity[row][i];
         });
       }
+    filter.spread(fields);
     put_back_old_fields();
     add_forces();
   }

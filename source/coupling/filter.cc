@@ -1,8 +1,10 @@
 #include <graupel/coupling/filter.h>
+#include <graupel/fluid/flow_matrix.h>
 
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/fe/fe_values.h>
 
+#include <Epetra_CrsMatrix.h>
 #include <boost/math/special_functions/bessel.hpp>
 
 namespace graupel
@@ -35,13 +37,14 @@ namespace graupel
   void
   Filter::assemble()
   {
+    dealii::TrilinosWrappers::SparseMatrix stiffness;
     stiffness.reinit(nodes.coupling_pattern);
 
     // Quadrature in the corners, as for the nodes' volumes: it makes K the
     // seven-point Laplacian on a lattice. Gauss points would leave a checkerboard
     // of wave number pi/h an eigenvalue nine times smaller, and with it in the
     // void fraction.
-    dealii::FEValues<3>                          values(nodes.mesh.mapping(),
+    dealii::FEValues<3>                          shapes(nodes.mesh.mapping(),
                                nodes.fe,
                                dealii::QGaussLobatto<3>(2),
                                dealii::update_gradients | dealii::update_JxW_values);
@@ -50,28 +53,66 @@ namespace graupel
     std::vector<dealii::types::global_dof_index> indices(n);
     for (const auto &cell : nodes.owned_cells())
       {
-        values.reinit(cell);
+        shapes.reinit(cell);
         local = 0.;
-        for (const unsigned int q : values.quadrature_point_indices())
+        for (const unsigned int q : shapes.quadrature_point_indices())
           for (unsigned int a = 0; a < n; ++a)
             for (unsigned int b = 0; b < n; ++b)
               local(a, b) +=
-                values.shape_grad(a, q) * values.shape_grad(b, q) * values.JxW(q);
+                shapes.shape_grad(a, q) * shapes.shape_grad(b, q) * shapes.JxW(q);
         cell->get_dof_indices(indices);
         nodes.hanging_nodes.distribute_local_to_global(local, indices, stiffness);
       }
     stiffness.compress(dealii::VectorOperation::add);
 
+    take_rows(stiffness);
     // Gershgorin's bound on the eigenvalues of M^-1 K.
-    for (const auto row : nodes.owned)
+    for (unsigned int row = 0; row + 1 < starts.size(); ++row)
       {
         double sum = 0.;
-        for (auto entry = stiffness.begin(row); entry != stiffness.end(row); ++entry)
-          sum += std::abs(entry->value());
-        largest_eigenvalue = std::max(largest_eigenvalue, sum * inverse_measure(row));
+        for (unsigned int k = starts[row]; k < starts[row + 1]; ++k)
+          sum += std::abs(values[k]);
+        largest_eigenvalue =
+          std::max(largest_eigenvalue, sum * inverse_measure.local_element(row));
       }
     largest_eigenvalue =
       dealii::Utilities::MPI::max(largest_eigenvalue, nodes.mesh.communicator());
+  }
+
+  void
+  Filter::take_rows(const dealii::TrilinosWrappers::SparseMatrix &stiffness)
+  {
+    const Epetra_CrsMatrix &matrix = stiffness.trilinos_matrix();
+    dealii::IndexSet        ghosts(nodes.owned.size());
+    const auto              visit = [&](const auto &take) {
+      for (int row = 0; row < matrix.NumMyRows(); ++row)
+        {
+          int     n_entries;
+          double *entries;
+          int    *columns_here;
+          matrix.ExtractMyRowView(row, n_entries, entries, columns_here);
+          for (int k = 0; k < n_entries; ++k)
+            take(matrix.ColMap().GID(columns_here[k]), entries[k]);
+          starts.push_back(values.size());
+        }
+    };
+    visit([&](const dealii::types::global_dof_index column, double) {
+      if (!nodes.owned.is_element(column))
+        ghosts.add_index(column);
+    });
+    const dealii::Utilities::MPI::Partitioner of_nodes(
+      nodes.owned, ghosts, nodes.mesh.communicator());
+    starts.assign(1, 0);
+    visit([&](const dealii::types::global_dof_index column, const double value) {
+      columns.push_back(of_nodes.global_to_local(column));
+      values.push_back(value);
+    });
+    for (const unsigned int width : {1u, most_at_once})
+      partitioners[width == 1 ? 0 : 1] =
+        std::make_shared<const dealii::Utilities::MPI::Partitioner>(
+          unknowns_of_nodes(nodes.owned, width),
+          unknowns_of_nodes(ghosts, width),
+          nodes.mesh.communicator());
   }
 
   void
@@ -93,29 +134,90 @@ namespace graupel
       coefficient /= at_zero;
   }
 
+  template <unsigned int width>
   void
-  Filter::shifted_product(NodalVector &y, const NodalVector &x) const
+  Filter::add_term(Fields       &before,
+                   const Fields &now,
+                   Fields       &sum,
+                   const double  factor,
+                   const double  coefficient) const
   {
-    // (2 / lambda_max M^-1 K - 1) x
-    stiffness.vmult(y, x);
-    y.scale(inverse_measure);
-    y.sadd(2. / largest_eigenvalue, -1., x);
+    now.update_ghost_values();
+    const double *const x = now.begin();
+    double *const y = before.begin(), *const total = sum.begin();
+    const double scale = 2. / largest_eigenvalue;
+    for (unsigned int row = 0; row + 1 < starts.size(); ++row)
+      {
+        std::array<double, width> product{};
+        for (unsigned int k = starts[row]; k < starts[row + 1]; ++k)
+          for (unsigned int i = 0; i < width; ++i)
+            product[i] += values[k] * x[width * columns[k] + i];
+        const double weight = scale * inverse_measure.local_element(row);
+        for (unsigned int i = 0, at = width * row; i < width; ++i, ++at)
+          {
+            y[at] = factor * (weight * product[i] - x[at]) - (factor - 1.) * y[at];
+            total[at] += coefficient * y[at];
+          }
+      }
+    now.zero_out_ghost_values();
+  }
+
+  template <unsigned int width>
+  void
+  Filter::apply(const std::vector<NodalVector *> &fields) const
+  {
+    // T_k of (2 / lambda_max M^-1 K - 1), two of them at a time, and the series so far.
+    Fields             before(partitioners[width == 1 ? 0 : 1]), now(before), sum(before);
+    const unsigned int n = inverse_measure.locally_owned_size();
+    for (unsigned int i = 0; i < fields.size(); ++i)
+      for (unsigned int k = 0; k < n; ++k)
+        sum.local_element(width * k + i) = fields[i]->local_element(k);
+    for (unsigned int turn = 0; turn < repetitions; ++turn)
+      {
+        now.equ(1., sum);
+        sum *= coefficients[0];
+        before = 0.;
+        for (unsigned int k = 1; k < coefficients.size(); ++k)
+          {
+            add_term<width>(before, now, sum, k == 1 ? 1. : 2., coefficients[k]);
+            before.swap(now);
+          }
+      }
+    for (unsigned int i = 0; i < fields.size(); ++i)
+      for (unsigned int k = 0; k < n; ++k)
+        fields[i]->local_element(k) = sum.local_element(width * k + i);
   }
 
   void
-  Filter::apply_once(NodalVector &x) const
+  Filter::spread(const std::vector<NodalVector *> &fields) const
   {
-    NodalVector before(x), now(x), next(x);
-    shifted_product(now, before);
-    x *= coefficients[0];
-    x.add(coefficients[1], now);
-    for (unsigned int k = 2; k < coefficients.size(); ++k)
+    for (NodalVector *field : fields)
       {
-        shifted_product(next, now);
-        next.sadd(2., -1., before);
-        x.add(coefficients[k], next);
-        before.swap(now);
-        now.swap(next);
+        field->zero_out_ghost_values();
+        field->scale(inverse_measure);
+      }
+    smooth(fields);
+  }
+
+  void
+  Filter::smooth(const std::vector<NodalVector *> &fields) const
+  {
+    for (NodalVector *field : fields)
+      field->zero_out_ghost_values();
+    for (auto begin = fields.begin(); coefficients.size() > 1 && begin != fields.end();)
+      {
+        const auto end =
+          begin + std::min<std::ptrdiff_t>(most_at_once, fields.end() - begin);
+        if (end == begin + 1)
+          apply<1>({begin, end});
+        else
+          apply<most_at_once>({begin, end});
+        begin = end;
+      }
+    for (NodalVector *field : fields)
+      {
+        nodes.hanging_nodes.distribute(*field);
+        field->update_ghost_values();
       }
   }
 
@@ -124,20 +226,14 @@ namespace graupel
   {
     x.zero_out_ghost_values();
     x.equ(1., b);
-    x.scale(inverse_measure);
-    smooth(x, x);
+    spread({&x});
   }
 
   void
   Filter::smooth(NodalVector &x, const NodalVector &f) const
   {
     x.zero_out_ghost_values();
-    if (&x != &f)
-      x.equ(1., f);
-    if (coefficients.size() > 1)
-      for (unsigned int i = 0; i < repetitions; ++i)
-        apply_once(x);
-    nodes.hanging_nodes.distribute(x);
-    x.update_ghost_values();
+    x.equ(1., f);
+    smooth({&x});
   }
 } // namespace graupel

@@ -43,7 +43,8 @@ TEST(Profiles, AverageLinearFieldsExactly)
     annuli += annulus.volume;
   EXPECT_NEAR(annuli, volume, 1e-12 * volume);
 
-  const auto plane = mid_plane(fields, 11);
+  MidPlane   middle(mesh, 11);
+  const auto plane = middle.values(fields);
   for (const PlanePoint &point : plane)
     EXPECT_NEAR(point.pressure, 5. - 100. * point.z, 1e-6);
   const unsigned int n_points =

@@ -95,7 +95,7 @@ namespace graupel
                 const std::string &origin);
 
     dealii::ParameterHandler          &handler;
-    std::vector<std::string>           known;
+    std::vector<std::string>           known, patterns; // of each entry
     std::map<std::string, std::string> origins;
   };
 

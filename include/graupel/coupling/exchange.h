@@ -267,7 +267,10 @@ namespace graupel
     void put_back_old_fields();
     // beta_p (W S u)_p - V_p (W S grad p)_p of the last forces(), by row [N].
     std::vector<dealii::Tensor<1, 3>> old_forces() const;
-    // x = S M^-1 W^T of a function of the own rows.
+    // x = W^T of a function of the own rows.
+    template <typename Function>
+    void deposit(NodalVector &x, const Function &value);
+    // x = S M^-1 W^T of it.
     template <typename Function>
     void spread(NodalVector &x, const Function &value);
     // A power of the void fraction, smoothed, at each own particle.
@@ -313,13 +316,20 @@ namespace graupel
 
   template <typename Function>
   void
-  Exchange::spread(NodalVector &x, const Function &value)
+  Exchange::deposit(NodalVector &x, const Function &value)
   {
     std::vector<double> values(beta.size());
     for (unsigned int row = 0; row < values.size(); ++row)
       values[row] = value(row);
-    transfer.deposit(scratch, values);
-    filter.spread(x, scratch);
+    transfer.deposit(x, values);
+  }
+
+  template <typename Function>
+  void
+  Exchange::spread(NodalVector &x, const Function &value)
+  {
+    deposit(x, value);
+    filter.spread({&x});
   }
 } // namespace graupel
 

@@ -43,6 +43,11 @@ namespace graupel
     /** x = S f, with the same remarks. */
     void smooth(NodalVector &x, const NodalVector &f) const;
 
+    /** The same for several fields, in place: together they cost hardly more than one,
+     * as K goes through the memory once. */
+    void spread(const std::vector<NodalVector *> &fields) const;
+    void smooth(const std::vector<NodalVector *> &fields) const;
+
     /** Products with K that one application costs. */
     unsigned int
     degree() const
@@ -51,15 +56,35 @@ namespace graupel
     }
 
   private:
-    void assemble();
-    void find_polynomial();
-    void apply_once(NodalVector &x) const;
-    void shifted_product(NodalVector &y, const NodalVector &x) const;
+    // Several fields node by node.
+    using Fields = dealii::LinearAlgebra::distributed::Vector<double>;
+    static constexpr unsigned int most_at_once = 4;
 
-    const NodalSpace                      &nodes;
-    const double                           length; // [m]
-    dealii::TrilinosWrappers::SparseMatrix stiffness;
-    NodalVector                            inverse_measure;
+    void assemble();
+    void take_rows(const dealii::TrilinosWrappers::SparseMatrix &stiffness);
+    void find_polynomial();
+    template <unsigned int width>
+    void apply(const std::vector<NodalVector *> &fields) const;
+    // before = factor (2 / lambda_max M^-1 K - 1) now - (factor - 1) before, a further
+    // term of the series, which is added to the sum.
+    template <unsigned int width>
+    void add_term(Fields       &before,
+                  const Fields &now,
+                  Fields       &sum,
+                  const double  factor,
+                  const double  coefficient) const;
+
+    const NodalSpace &nodes;
+    const double      length; // [m]
+
+    // K by its own rows, and who has the values of its columns: one for each node, and
+    // most_at_once.
+    std::vector<unsigned int> starts, columns;
+    std::vector<double>       values;
+    std::array<std::shared_ptr<const dealii::Utilities::MPI::Partitioner>, 2>
+      partitioners;
+
+    NodalVector         inverse_measure;
     double              largest_eigenvalue = 0.; // an upper bound [1/m^2]
     std::vector<double> coefficients;            // of the Chebyshev series
     unsigned int        repetitions = 1;

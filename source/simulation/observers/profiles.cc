@@ -96,28 +96,28 @@ namespace graupel
     return (1. - share) * below.pressure + share * above.pressure;
   }
 
-  std::vector<PlanePoint>
-  mid_plane(const FlowFields &fields, const unsigned int n_across)
+  MidPlane::MidPlane(const VesselMesh &mesh, const unsigned int n_across)
+    : mesh(mesh)
+    , places(1e-6)
   {
-    const VesselMesh &mesh = fields.nodes.mesh;
     // A hair inside: the mapped boundary is not exactly the circle.
     const double       half   = mesh.cylinder().diameter / 2. * (1. - 1e-3);
     const double       height = mesh.cylinder().height * (1. - 1e-6);
     const unsigned int n_along =
       std::max(2l, std::lround(height / (2. * half) * n_across));
-    const bool is_first =
-      dealii::Utilities::MPI::this_mpi_process(mesh.communicator()) == 0;
-
-    std::vector<dealii::Point<3>> points;
-    if (is_first)
+    if (dealii::Utilities::MPI::this_mpi_process(mesh.communicator()) == 0)
       for (unsigned int i = 0; i < n_across; ++i)
         for (unsigned int k = 0; k < n_along; ++k)
           points.emplace_back(-half + 2. * half * i / (n_across - 1),
                               0.,
                               height * (1e-6 + (1. - 1e-6) * k / (n_along - 1)));
+  }
 
-    dealii::Utilities::MPI::RemotePointEvaluation<3> places(1e-6);
-    places.reinit(points, mesh.triangulation(), mesh.mapping());
+  std::vector<PlanePoint>
+  MidPlane::values(const FlowFields &fields)
+  {
+    if (!places.is_ready())
+      places.reinit(points, mesh.triangulation(), mesh.mapping());
     const auto evaluate = [&](const NodalVector &field) {
       return dealii::VectorTools::point_values<1>(
         places, fields.nodes.dof_handler, field);

@@ -126,9 +126,7 @@ namespace graupel
     averages.record(row, frame.begin, series.probes);
     if (state.fluid && state.parameters.averages.is_snapshot_due(before, frame.time()))
       files.add_snapshot(
-        state.time,
-        number,
-        mid_plane(fields_of(*state.fluid), state.parameters.output.midplane_points));
+        state.time, number, state.mid_plane.values(fields_of(*state.fluid)));
   }
 
   void
@@ -170,9 +168,7 @@ namespace graupel
       {
         files.write_axial(number, view, result);
         files.write_radial(number, view.radial, state.parameters.cylinder.diameter / 2.);
-        files.write_mid_plane(
-          number,
-          mid_plane(fields_of(*state.fluid), state.parameters.output.midplane_points));
+        files.write_mid_plane(number, state.mid_plane.values(fields_of(*state.fluid)));
         files.add_fields(state.time, *state.fluid);
       }
     files.add_particles(state.time, state.dem);
@@ -200,13 +196,13 @@ namespace graupel
       return;
     const NodalSpace &nodes = state.fluid->nodes();
     files.add_averages(state.time, nodes, state.averages);
-    files.write_mid_plane(number,
-                          mid_plane({nodes,
-                                     state.averages.mean(FieldAverages::void_fraction),
-                                     state.averages.mean(FieldAverages::flux + 2),
-                                     state.averages.mean(FieldAverages::pressure)},
-                                    state.parameters.output.midplane_points),
-                          true);
+    files.write_mid_plane(
+      number,
+      state.mid_plane.values({nodes,
+                              state.averages.mean(FieldAverages::void_fraction),
+                              state.averages.mean(FieldAverages::flux + 2),
+                              state.averages.mean(FieldAverages::pressure)}),
+      true);
   }
 
   std::string

@@ -4,6 +4,8 @@
 #include <graupel/closures/bed_correlations.h>
 #include <graupel/mesh/nodal_space.h>
 
+#include <deal.II/base/mpi_remote_point_evaluation.h>
+
 namespace graupel
 {
   /** The fields that the profiles look at, ghosts up to date. */
@@ -58,10 +60,23 @@ namespace graupel
     double x, z, void_fraction, flux, pressure;
   };
 
-  /** The plane y = 0 on a regular grid of @p n_across points across, z running fastest;
-   * points outside of the mesh are left out. Collective. */
-  std::vector<PlanePoint> mid_plane(const FlowFields  &fields,
-                                    const unsigned int n_across);
+  /** The plane y = 0 on a regular grid. The cells of its points are found once for a
+   * mesh. */
+  class MidPlane
+  {
+  public:
+    /** @p n_across points across the vessel. */
+    MidPlane(const VesselMesh &mesh, const unsigned int n_across);
+
+    /** The fields at its points, z running fastest; those outside of the mesh are left
+     * out. All are the first rank's. Collective. */
+    std::vector<PlanePoint> values(const FlowFields &fields);
+
+  private:
+    const VesselMesh                                &mesh;
+    std::vector<dealii::Point<3>>                    points;
+    dealii::Utilities::MPI::RemotePointEvaluation<3> places;
+  };
 
   /**
    * What loose packing at the wall does by itself: the common pressure gradient

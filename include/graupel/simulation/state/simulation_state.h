@@ -4,6 +4,7 @@
 #include <graupel/base/ledger.h>
 #include <graupel/base/progress.h>
 #include <graupel/dem/bed/bed_observables.h>
+#include <graupel/simulation/observers/profiles.h>
 #include <graupel/simulation/state/bed_result.h>
 #include <graupel/simulation/state/field_averages.h>
 
@@ -57,6 +58,7 @@ namespace graupel
     FlowSolver::Report last_step;
     /** Of the fluid, over the window of the flow case. */
     FieldAverages averages;
+    MidPlane      mid_plane;
 
     /** Simulated since the run began [s]. */
     double time = 0.;
