@@ -50,6 +50,7 @@ namespace graupel
     , files(files)
     , series{Feeds(parameters.feeds, state.dem),
              Probes(read_probes(parameters.output.probes)),
+             MidPlane(state.mesh, parameters.output.midplane_points),
              {},
              0.,
              false}

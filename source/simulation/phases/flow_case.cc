@@ -126,7 +126,7 @@ namespace graupel
     averages.record(row, frame.begin, series.probes);
     if (state.fluid && state.parameters.averages.is_snapshot_due(before, frame.time()))
       files.add_snapshot(
-        state.time, number, state.mid_plane.values(fields_of(*state.fluid)));
+        state.time, number, series.mid_plane.values(fields_of(*state.fluid)));
   }
 
   void
@@ -168,7 +168,7 @@ namespace graupel
       {
         files.write_axial(number, view, result);
         files.write_radial(number, view.radial, state.parameters.cylinder.diameter / 2.);
-        files.write_mid_plane(number, state.mid_plane.values(fields_of(*state.fluid)));
+        files.write_mid_plane(number, series.mid_plane.values(fields_of(*state.fluid)));
         files.add_fields(state.time, *state.fluid);
       }
     files.add_particles(state.time, state.dem);
@@ -198,10 +198,10 @@ namespace graupel
     files.add_averages(state.time, nodes, state.averages);
     files.write_mid_plane(
       number,
-      state.mid_plane.values({nodes,
-                              state.averages.mean(FieldAverages::void_fraction),
-                              state.averages.mean(FieldAverages::flux + 2),
-                              state.averages.mean(FieldAverages::pressure)}),
+      series.mid_plane.values({nodes,
+                               state.averages.mean(FieldAverages::void_fraction),
+                               state.averages.mean(FieldAverages::flux + 2),
+                               state.averages.mean(FieldAverages::pressure)}),
       true);
   }
 

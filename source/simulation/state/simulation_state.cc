@@ -25,7 +25,6 @@ namespace graupel
     , mesh(parameters.cylinder, parameters.mesh, communicator)
     , dem(parameters.dem, mesh, costs)
     , observables(dem.particles(), dem.vessel_shape(), communicator)
-    , mid_plane(mesh, parameters.output.midplane_points)
   {
     // What the mesh's own boundaries cannot have is said before the bed is made.
     if (parameters.sweep.has_fluid())

@@ -15,8 +15,9 @@ namespace graupel
     /** What the cases of a run hand on to each other. */
     struct Series
     {
-      Feeds  feeds;
-      Probes probes;
+      Feeds    feeds;
+      Probes   probes;
+      MidPlane mid_plane;
       /** Those that have ended. */
       std::vector<CaseResult> results;
       /** V at the end of the last one [m/s]. */

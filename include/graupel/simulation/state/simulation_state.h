@@ -4,7 +4,6 @@
 #include <graupel/base/ledger.h>
 #include <graupel/base/progress.h>
 #include <graupel/dem/bed/bed_observables.h>
-#include <graupel/simulation/observers/profiles.h>
 #include <graupel/simulation/state/bed_result.h>
 #include <graupel/simulation/state/field_averages.h>
 
@@ -58,7 +57,6 @@ namespace graupel
     FlowSolver::Report last_step;
     /** Of the fluid, over the window of the flow case. */
     FieldAverages averages;
-    MidPlane      mid_plane;
 
     /** Simulated since the run began [s]. */
     double time = 0.;
