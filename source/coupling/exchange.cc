@@ -261,8 +261,7 @@ namespace graupel
     const auto add = [&](NodalVector &x, const auto &value) {
       for (unsigned int k = 0; k < x.locally_owned_size(); ++k)
         x.local_element(k) += old_part * (correction.local_element(k) + value(k));
-      nodes.hanging_nodes.distribute(x);
-      x.update_ghost_values();
+      nodes.distribute(x);
     };
     for (unsigned int i = 0; i < 3; ++i)
       {

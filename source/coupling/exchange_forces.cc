@@ -26,8 +26,7 @@ namespace graupel
   void
   Exchange::complete(NodalVector &x) const
   {
-    nodes.hanging_nodes.distribute(x);
-    x.update_ghost_values();
+    nodes.distribute(x);
   }
 
   void

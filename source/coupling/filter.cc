@@ -216,8 +216,7 @@ namespace graupel
       }
     for (NodalVector *field : fields)
       {
-        nodes.hanging_nodes.distribute(*field);
-        field->update_ghost_values();
+        nodes.distribute(*field);
       }
   }
 

@@ -201,8 +201,7 @@ namespace graupel
     space.nodes.initialize(profile);
     for (const Node &node : boundary.nodes)
       profile.local_element(node.local) = boundary.parabola(node.position);
-    space.nodes.hanging_nodes.distribute(profile);
-    profile.update_ghost_values();
+    space.nodes.distribute(profile);
     boundary.parabola_mean = mean(boundary, profile);
   }
 
@@ -343,8 +342,7 @@ namespace graupel
     const auto share = [&](NodalVectorField &field) {
       for (NodalVector &component : field)
         {
-          space.nodes.hanging_nodes.distribute(component);
-          component.update_ghost_values();
+          space.nodes.distribute(component);
         }
     };
     for (unsigned int n = 0; n < inlet_fluxes.size(); ++n)

@@ -44,8 +44,7 @@ namespace graupel
             for (unsigned int k = 0; k < component.locally_owned_size(); ++k)
               if (nodes.measure().local_element(k) > 0.)
                 component.local_element(k) /= nodes.measure().local_element(k);
-            nodes.hanging_nodes.distribute(component);
-            component.update_ghost_values();
+            nodes.distribute(component);
           }
       }
 
@@ -174,8 +173,7 @@ namespace graupel
               const double n            = weight[0].local_element(k);
               field[i].local_element(k) = n > 0. ? sum[i].local_element(k) / n : 0.;
             }
-        nodes.hanging_nodes.distribute(field[i]);
-        field[i].update_ghost_values();
+        nodes.distribute(field[i]);
       }
   }
 } // namespace graupel

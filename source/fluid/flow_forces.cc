@@ -72,8 +72,7 @@ namespace graupel
         result[i] += at_outlets[i];
         for (unsigned int k = 0; k < result[i].locally_owned_size(); ++k)
           result[i].local_element(k) /= nodes.measure().local_element(k);
-        nodes.hanging_nodes.distribute(result[i]);
-        result[i].update_ghost_values();
+        nodes.distribute(result[i]);
       }
     return result;
   }

@@ -174,8 +174,7 @@ namespace graupel
               vector.local_element(local) = function.value(cell->vertex(v), field);
             done[local] = true;
           }
-    nodes.hanging_nodes.distribute(vector);
-    vector.update_ghost_values();
+    nodes.distribute(vector);
   }
 
   void

@@ -24,6 +24,8 @@ namespace graupel
     partitioner = std::make_shared<const dealii::Utilities::MPI::Partitioner>(
       owned, relevant, mesh.communicator());
 
+    find_hanging_nodes();
+
     coupling_pattern.reinit(owned, owned, relevant, mesh.communicator());
     dealii::DoFTools::make_sparsity_pattern(
       dof_handler, coupling_pattern, hanging_nodes, false);
@@ -98,6 +100,48 @@ namespace graupel
       }
     for (NodalVector *field : fields)
       field->update_ghost_values();
+  }
+
+  void
+  NodalSpace::find_hanging_nodes()
+  {
+    bool is_distant = false;
+    for (const auto &line : hanging_nodes.get_lines())
+      {
+        if (!owned.is_element(line.index))
+          continue;
+        own_hanging_nodes.push_back({partitioner->global_to_local(line.index), {}});
+        for (const auto &[node, weight] : line.entries)
+          if (owned.is_element(node) || partitioner->ghost_indices().is_element(node))
+            own_hanging_nodes.back().ends.emplace_back(partitioner->global_to_local(node),
+                                                       weight);
+          else
+            is_distant = true;
+      }
+    const auto any = [&](const bool here) {
+      return dealii::Utilities::MPI::max(here ? 1 : 0, mesh.communicator()) == 1;
+    };
+    has_hanging_nodes = any(!own_hanging_nodes.empty());
+    has_distant_ends  = any(is_distant);
+  }
+
+  void
+  NodalSpace::distribute(NodalVector &vector) const
+  {
+    if (has_distant_ends)
+      hanging_nodes.distribute(vector); // finds who has them, each time anew
+    else if (has_hanging_nodes)
+      {
+        vector.update_ghost_values();
+        for (const HangingNode &hanging : own_hanging_nodes)
+          {
+            double value = 0.;
+            for (const auto &[node, weight] : hanging.ends)
+              value += weight * vector.local_element(node);
+            vector.local_element(hanging.node) = value;
+          }
+      }
+    vector.update_ghost_values();
   }
 
   void

@@ -50,6 +50,10 @@ namespace graupel
     /** Makes @p vector a zero vector of the nodes, with room for ghosts. */
     void initialize(NodalVector &vector) const;
 
+    /** Sets the own hanging nodes of @p vector between the nodes that they depend on, and
+     * brings the ghosts up to date. Collective among neighbours. */
+    void distribute(NodalVector &vector) const;
+
     /** Puts the values of @p fields at the nodes of each own cell behind its @p bytes, in
      * the order of owned_cells(). */
     void append(VesselMesh::CellBytes                  &bytes,
@@ -67,6 +71,19 @@ namespace graupel
     }
 
   private:
+    // An own node between others, by local numbers, each with its weight.
+    struct HangingNode
+    {
+      unsigned int                                 node;
+      std::vector<std::pair<unsigned int, double>> ends;
+    };
+
+    void find_hanging_nodes();
+
+    std::vector<HangingNode> own_hanging_nodes;
+    // On any rank; and whether one depends on a node that its rank does not know.
+    bool has_hanging_nodes = false, has_distant_ends = false;
+
     std::shared_ptr<const dealii::Utilities::MPI::Partitioner> partitioner;
     NodalVector                                                volumes;
   };

@@ -102,10 +102,11 @@ def evaluate(results):
 
 
 def figure(results):
-    """The lines, measured and ours."""
-    picture = new_figure(height=6.0)
-    parts = picture.subplots(len(VELOCITIES), len(LINES))
-    for row, velocity in zip(parts, VELOCITIES):
+    """The lines, measured and ours, at the velocities of which there are runs."""
+    shown = [v for v in VELOCITIES if any(results.has(name_of(v, mesh)) for mesh in MESHES)]
+    picture = new_figure(height=3.0 * len(shown))
+    parts = picture.subplots(len(shown), len(LINES), squeeze=False)
+    for row, velocity in zip(parts, shown):
         for axes, (line, height, quantity, limits) in zip(row, LINES):
             name = "void fraction" if quantity == "void_fraction" else "velocity"
             axes.set_title(f"{name} [{UNITS[quantity]}], {height * 1e3:g} mm, {velocity} m/s",

@@ -132,8 +132,7 @@ namespace graupel
   {
     for (NodalVector &field : fields)
       {
-        node_space->hanging_nodes.distribute(field);
-        field.update_ghost_values();
+        node_space->distribute(field);
       }
     const NodalVectorField flux{fields[0], fields[1], fields[2]};
     particles_and_fluid->update_bed(dem.store(), dem.particles());
