@@ -499,6 +499,7 @@ class CheckedBeforehand(CaseTest):
             ("Flow/time step", 1e-13, "steps of the fluid"),
             ("Output/interval", 1e-9, "sets of ParaView files"),
             ("Mesh/cell size", 2e-5, "larger cells"),
+            ("Flow/superficial velocities", 1e308, "Reynolds number"),
         ):
             self.checked("bed20", {"Flow/superficial velocities": 0.3, name: value}, (name, words))
 

@@ -1,4 +1,5 @@
 #include <graupel/base/parameters.h>
+#include <graupel/base/read_numbers.h>
 #include <graupel/closures/bed_correlations.h>
 #include <graupel/dem/bed/wall_layer.h>
 #include <graupel/simulation/parameters/probe_points.h>
@@ -15,6 +16,8 @@ namespace graupel
   {
     // Void fraction of a bed that is not there yet, for estimates only.
     constexpr double guessed_void_fraction = 0.4;
+    // Of a particle, far beyond any that drag laws are made for [-].
+    constexpr double most_reynolds = 1e9;
   } // namespace
 
   void
@@ -68,6 +71,17 @@ namespace graupel
             "the fluid enters at the bottom and leaves at the top, so the ends cannot be "
             "periodic while it flows; leave Flow/superficial velocities empty for "
             "particles alone");
+    for (const double velocity : sweep.superficial_velocities)
+      {
+        const double reynolds =
+          fluid.density * velocity * dem.mean_original_diameter() / fluid.viscosity;
+        require(
+          reynolds <= most_reynolds,
+          "Flow/superficial velocities",
+          "a particle has the Reynolds number " + text_of(reynolds, 3) +
+            ", for which no drag law holds; are velocities in m/s and Fluid/viscosity "
+            "in Pa s?");
+      }
     require(
       filter_length() <= cylinder.diameter,
       "Coupling/filter length",

@@ -13,7 +13,7 @@ namespace graupel
 
     // Measured with prm/packed-bed/ricklick-2x.prm on cells of 3.2 to 0.8 mm [bytes].
     constexpr double memory_of_program = 1.5e8, memory_of_cell = 2.4e4,
-                     memory_of_particle = 1.7e3;
+                     memory_of_particle = 1.5e3;
     // A checkpoint, of which there are three for a while, and ParaView's files [bytes].
     constexpr double saved_cell = 1.5e3, saved_particle = 650., shown_cell = 90.,
                      shown_particle = 250.;
