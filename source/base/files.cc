@@ -1,3 +1,4 @@
+#include <graupel/base/even_share.h>
 #include <graupel/base/files.h>
 
 #include <cerrno>
@@ -174,11 +175,7 @@ namespace graupel
   void
   write_file(const std::string &path, const std::string &part, MPI_Comm communicator)
   {
-    const std::uint64_t size  = part.size();
-    std::uint64_t       begin = 0;
-    MPI_Exscan(&size, &begin, 1, MPI_UINT64_T, MPI_SUM, communicator);
-    if (dealii::Utilities::MPI::this_mpi_process(communicator) == 0)
-      begin = 0; // undefined there
+    const std::uint64_t begin = on_lower_ranks(part.size(), communicator);
     write_file(path, {{begin, part}}, communicator);
   }
 

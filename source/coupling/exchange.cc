@@ -163,15 +163,14 @@ namespace graupel
     find_added_forces(particles);
     answer.assign(particles.n_owned, 1.);
     result.solids.reset();
-    deposit(result.drag, [&](const unsigned int row) { return beta[row]; });
-    std::vector<NodalVector *> fields{&result.drag};
+    std::vector<NodalVector *> fields;
+    deposit(
+      result.drag, [&](const unsigned int row) { return beta[row]; }, fields);
     for (unsigned int i = 0; i < 3; ++i)
-      {
-        deposit(result.drag_source[i], [&](const unsigned int row) {
-          return beta[row] * response.velocity[row][i];
-        });
-        fields.push_back(&result.drag_source[i]);
-      }
+      deposit(
+        result.drag_source[i],
+        [&](const unsigned int row) { return beta[row] * response.velocity[row][i]; },
+        fields);
     filter.spread(fields);
     add_forces();
   }
@@ -195,8 +194,7 @@ namespace graupel
     };
     std::vector<NodalVector *> fields;
     const auto                 add = [&](NodalVector &x, const auto &value) {
-      deposit(x, value);
-      fields.push_back(&x);
+      deposit(x, value, fields);
     };
     add(result.drag, drag);
     add(solids.by_velocity,

@@ -24,12 +24,6 @@ namespace graupel
   }
 
   void
-  Exchange::complete(NodalVector &x) const
-  {
-    nodes.distribute(x);
-  }
-
-  void
   Exchange::add_forces()
   {
     if (!added)
@@ -51,7 +45,7 @@ namespace graupel
                  (added->known()[row][i] - inertia(row) * response.velocity[row][i]);
         });
         result.drag_source[i] -= part;
-        complete(result.drag_source[i]);
+        nodes.distribute(result.drag_source[i]);
         if (!result.solids)
           continue;
         spread(part, [&](const unsigned int row) {
@@ -59,7 +53,7 @@ namespace graupel
                  added->known()[row][i];
         });
         result.solids->flux[i] += part;
-        complete(result.solids->flux[i]);
+        nodes.distribute(result.solids->flux[i]);
       }
   }
 
@@ -74,9 +68,9 @@ namespace graupel
       return volume[row] * response.mobility[row] * answer[row] * inertia(row);
     });
     result.drag += drag;
-    complete(result.drag);
+    nodes.distribute(result.drag);
     result.solids->by_velocity += flux;
-    complete(result.solids->by_velocity);
+    nodes.distribute(result.solids->by_velocity);
     for (unsigned int i = 0; i < 3; ++i)
       {
         for (unsigned int k = 0; k < drag.locally_owned_size(); ++k)
@@ -85,8 +79,8 @@ namespace graupel
             result.drag_source[i].local_element(k) += drag.local_element(k) * e;
             result.solids->flux[i].local_element(k) -= flux.local_element(k) * e;
           }
-        complete(result.drag_source[i]);
-        complete(result.solids->flux[i]);
+        nodes.distribute(result.drag_source[i]);
+        nodes.distribute(result.solids->flux[i]);
       }
   }
 

@@ -83,36 +83,30 @@ namespace graupel
   Filter::take_rows(const dealii::TrilinosWrappers::SparseMatrix &stiffness)
   {
     const Epetra_CrsMatrix &matrix = stiffness.trilinos_matrix();
+    const Epetra_Map       &of_all = matrix.ColMap();
     dealii::IndexSet        ghosts(nodes.owned.size());
-    const auto              visit = [&](const auto &take) {
-      for (int row = 0; row < matrix.NumMyRows(); ++row)
-        {
-          int     n_entries;
-          double *entries;
-          int    *columns_here;
-          matrix.ExtractMyRowView(row, n_entries, entries, columns_here);
-          for (int k = 0; k < n_entries; ++k)
-            take(matrix.ColMap().GID(columns_here[k]), entries[k]);
-          starts.push_back(values.size());
-        }
-    };
-    visit([&](const dealii::types::global_dof_index column, double) {
-      if (!nodes.owned.is_element(column))
-        ghosts.add_index(column);
-    });
+    for (int column = 0; column < of_all.NumMyElements(); ++column)
+      if (!nodes.owned.is_element(of_all.GID(column)))
+        ghosts.add_index(of_all.GID(column));
     const dealii::Utilities::MPI::Partitioner of_nodes(
       nodes.owned, ghosts, nodes.mesh.communicator());
-    starts.assign(1, 0);
-    visit([&](const dealii::types::global_dof_index column, const double value) {
-      columns.push_back(of_nodes.global_to_local(column));
-      values.push_back(value);
-    });
+    starts.push_back(0);
+    for (int row = 0; row < matrix.NumMyRows(); ++row)
+      {
+        int     n_entries;
+        double *entries;
+        int    *columns_here;
+        matrix.ExtractMyRowView(row, n_entries, entries, columns_here);
+        values.insert(values.end(), entries, entries + n_entries);
+        for (int k = 0; k < n_entries; ++k)
+          columns.push_back(of_nodes.global_to_local(of_all.GID(columns_here[k])));
+        starts.push_back(values.size());
+      }
     for (const unsigned int width : {1u, most_at_once})
-      partitioners[width == 1 ? 0 : 1] =
-        std::make_shared<const dealii::Utilities::MPI::Partitioner>(
-          unknowns_of_nodes(nodes.owned, width),
-          unknowns_of_nodes(ghosts, width),
-          nodes.mesh.communicator());
+      partitioners[width] = std::make_shared<const dealii::Utilities::MPI::Partitioner>(
+        unknowns_of_nodes(nodes.owned, width),
+        unknowns_of_nodes(ghosts, width),
+        nodes.mesh.communicator());
   }
 
   void
@@ -167,7 +161,7 @@ namespace graupel
   Filter::apply(const std::vector<NodalVector *> &fields) const
   {
     // T_k of (2 / lambda_max M^-1 K - 1), two of them at a time, and the series so far.
-    Fields             before(partitioners[width == 1 ? 0 : 1]), now(before), sum(before);
+    Fields             before(partitioners.at(width)), now(before), sum(before);
     const unsigned int n = inverse_measure.locally_owned_size();
     for (unsigned int i = 0; i < fields.size(); ++i)
       for (unsigned int k = 0; k < n; ++k)
@@ -215,9 +209,7 @@ namespace graupel
         begin = end;
       }
     for (NodalVector *field : fields)
-      {
-        nodes.distribute(*field);
-      }
+      nodes.distribute(*field);
   }
 
   void

@@ -1,6 +1,7 @@
 #include <graupel/dem/dem.h>
 #include <graupel/dem/numbers/exact_sum.h>
 #include <graupel/dem/particles/dem_error.h>
+#include <graupel/dem/particles/same_rows.h>
 #include <graupel/dem/vessel/mesh_planes.h>
 
 #include <boost/serialization/array.hpp>
@@ -38,14 +39,6 @@ namespace graupel
         archive &passengers &contacts;
       }
     };
-
-    std::vector<std::uint32_t>
-    same_rows(const unsigned int n)
-    {
-      std::vector<std::uint32_t> rows(n);
-      std::iota(rows.begin(), rows.end(), 0u);
-      return rows;
-    }
 
     // Whether some vector is not zero; one that is no number is none.
     bool

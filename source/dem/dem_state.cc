@@ -1,22 +1,13 @@
 #include <graupel/dem/dem.h>
 #include <graupel/dem/numbers/exact_sum.h>
 #include <graupel/dem/particles/dem_error.h>
-
-#include <numeric>
+#include <graupel/dem/particles/same_rows.h>
 
 namespace graupel
 {
   namespace
   {
     namespace mpi = dealii::Utilities::MPI;
-
-    std::vector<std::uint32_t>
-    all_rows(const ParticleArrays &particles)
-    {
-      std::vector<std::uint32_t> rows(particles.n_owned);
-      std::iota(rows.begin(), rows.end(), 0u);
-      return rows;
-    }
 
     // A load that was counted in the quanta of a bed with other contacts.
     void
@@ -36,7 +27,7 @@ namespace graupel
   Dem::state() const
   {
     DemState   result;
-    const auto all = contacts.contacts_of(arrays, all_rows(arrays));
+    const auto all = contacts.contacts_of(arrays, same_rows(arrays.n_owned));
     // The places in it of what each particle takes part in.
     std::vector<std::pair<std::int64_t, std::size_t>> of_id;
     for (std::size_t k = 0; k < all.size(); ++k)

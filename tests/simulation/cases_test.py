@@ -10,9 +10,10 @@ import math
 import shutil
 import subprocess
 
-from runs import FAULT, ROOT, RunTest, call, main
+from runs import ROOT, RunTest, call, main
 
 from common.particles import positions
+from common.program import FAULT
 from common.reference import ergun_pressure_drop
 
 CASES = ROOT / "tests" / "cases"

@@ -6,7 +6,9 @@ import pathlib
 import tempfile
 import unittest
 
-from runs import FAULT, ROOT, call, main
+from runs import ROOT, call, main
+
+from common.program import FAULT
 
 SHORT = ROOT / "prm" / "packed-bed" / "short.prm"
 

@@ -13,7 +13,9 @@ import signal
 import subprocess
 import time
 
-from runs import NOT_WRITTEN, ROOT, STOPPED, RunTest, command, environment, main, overrides
+from runs import ROOT, RunTest, command, main, overrides
+
+from common.program import NOT_WRITTEN, STOPPED, environment, processes_in
 
 CASES = ROOT / "tests" / "cases"
 # A checkpoint after each step.
@@ -70,13 +72,7 @@ class InterruptedRuns(RunTest):
         """Kills all ranks of a run, with what started them, and returns when they are gone.
         mpirun gives each rank a group of its own, and one that outlived it would still write."""
 
-        def is_of_run(process):
-            try:
-                return os.readlink(process / "cwd") == os.path.realpath(self.path)
-            except OSError:  # another user's, or gone
-                return False
-
-        while left := list(filter(is_of_run, pathlib.Path("/proc").glob("[0-9]*"))):
+        while left := processes_in(self.path):
             for process in left:
                 with contextlib.suppress(ProcessLookupError):
                     os.kill(int(process.name), signal.SIGKILL)

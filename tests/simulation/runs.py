@@ -2,7 +2,6 @@
 
 import csv
 import json
-import os
 import pathlib
 import subprocess
 import sys
@@ -11,27 +10,16 @@ import unittest
 
 # For the reader of ParaView's files and for the project's own tables.
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-# Exit statuses: the run has stopped by a fault, as it was asked to, or as a file could not be
-# written.
-FAULT, STOPPED, NOT_WRITTEN = 2, 3, 4
 sys.dont_write_bytecode = True
 sys.path.insert(0, str(ROOT / "scripts"))
+
+from common.program import environment  # noqa: E402
 
 
 class Program:
     """The binary under test; set once by the test's main()."""
 
     path = None
-
-
-def environment():
-    """What a run needs to be told by the machine: one thread a rank, also as root."""
-    return dict(
-        os.environ,
-        OMPI_ALLOW_RUN_AS_ROOT="1",
-        OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1",
-        OMP_NUM_THREADS="1",
-    )
 
 
 def command(*arguments, ranks=1):

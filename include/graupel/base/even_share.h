@@ -8,6 +8,17 @@
 
 namespace graupel
 {
+  /** The sum of @p n on the lower ranks. Collective. */
+  inline std::int64_t
+  on_lower_ranks(const std::int64_t n, MPI_Comm communicator)
+  {
+    std::int64_t below = 0;
+    const int    ierr  = MPI_Exscan(&n, &below, 1, MPI_INT64_T, MPI_SUM, communicator);
+    AssertThrowMPI(ierr);
+    // On the first rank it is undefined.
+    return dealii::Utilities::MPI::this_mpi_process(communicator) == 0 ? 0 : below;
+  }
+
   /** Numbers from begin to end - 1. */
   struct Share
   {

@@ -259,17 +259,18 @@ namespace graupel
     // Where the fluid moves with this velocity, over D [N].
     dealii::Tensor<1, 3> added_force(const unsigned int          row,
                                      const dealii::Tensor<1, 3> &velocity) const;
-    // Values of hanging nodes and ghosts from those of the own nodes.
-    void complete(NodalVector &x) const;
     // Takes what a particle would answer to the fields of the last forces() node by node
     // instead of particle by particle; in a bed at rest nothing is then left of the
     // mobility.
     void put_back_old_fields();
     // beta_p (W S u)_p - V_p (W S grad p)_p of the last forces(), by row [N].
     std::vector<dealii::Tensor<1, 3>> old_forces() const;
-    // x = W^T of a function of the own rows.
+    // x = W^T of a function of the own rows, which joins the fields that the filter is to
+    // spread together.
     template <typename Function>
-    void deposit(NodalVector &x, const Function &value);
+    void deposit(NodalVector                &x,
+                 const Function             &value,
+                 std::vector<NodalVector *> &fields);
     // x = S M^-1 W^T of it.
     template <typename Function>
     void spread(NodalVector &x, const Function &value);
@@ -316,20 +317,24 @@ namespace graupel
 
   template <typename Function>
   void
-  Exchange::deposit(NodalVector &x, const Function &value)
+  Exchange::deposit(NodalVector                &x,
+                    const Function             &value,
+                    std::vector<NodalVector *> &fields)
   {
     std::vector<double> values(beta.size());
     for (unsigned int row = 0; row < values.size(); ++row)
       values[row] = value(row);
     transfer.deposit(x, values);
+    fields.push_back(&x);
   }
 
   template <typename Function>
   void
   Exchange::spread(NodalVector &x, const Function &value)
   {
-    deposit(x, value);
-    filter.spread({&x});
+    std::vector<NodalVector *> fields;
+    deposit(x, value, fields);
+    filter.spread(fields);
   }
 } // namespace graupel
 

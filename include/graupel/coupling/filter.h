@@ -5,6 +5,8 @@
 
 #include <deal.II/lac/trilinos_sparse_matrix.h>
 
+#include <map>
+
 namespace graupel
 {
   /**
@@ -77,11 +79,11 @@ namespace graupel
     const NodalSpace &nodes;
     const double      length; // [m]
 
-    // K by its own rows, and who has the values of its columns: one for each node, and
-    // most_at_once.
+    // K by its own rows, and who has the values of its columns, by how many there are of
+    // a node: one or most_at_once.
     std::vector<unsigned int> starts, columns;
     std::vector<double>       values;
-    std::array<std::shared_ptr<const dealii::Utilities::MPI::Partitioner>, 2>
+    std::map<unsigned int, std::shared_ptr<const dealii::Utilities::MPI::Partitioner>>
       partitioners;
 
     NodalVector         inverse_measure;

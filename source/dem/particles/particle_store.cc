@@ -1,6 +1,7 @@
 #include <graupel/base/rank_messages.h>
 #include <graupel/dem/particles/dem_error.h>
 #include <graupel/dem/particles/particle_store.h>
+#include <graupel/dem/particles/same_rows.h>
 
 #include <deal.II/grid/grid_tools.h>
 
@@ -212,8 +213,7 @@ namespace graupel
   std::vector<std::uint32_t>
   ParticleStore::release(ParticleArrays &p, const std::vector<std::uint32_t> &rows)
   {
-    std::vector<std::uint32_t> new_row(p.n_owned);
-    std::iota(new_row.begin(), new_row.end(), 0u);
+    auto new_row = same_rows(p.n_owned);
     // From the last one on, so that what fills a gap stays.
     for (auto row = rows.rbegin(); row != rows.rend(); ++row)
       {

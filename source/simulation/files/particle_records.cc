@@ -21,16 +21,6 @@ namespace graupel
       std::int64_t particles = 0, contacts = 0;
     };
 
-    // The sum of the numbers on the lower ranks.
-    Numbers
-    on_lower_ranks(const Numbers &mine, MPI_Comm communicator)
-    {
-      Numbers   below;
-      const int ierr = MPI_Exscan(&mine, &below, 2, MPI_INT64_T, MPI_SUM, communicator);
-      AssertThrowMPI(ierr);
-      return mpi::this_mpi_process(communicator) == 0 ? Numbers() : below;
-    }
-
     template <class Record>
     std::string_view
     bytes(const Record *records, const std::size_t n)
@@ -56,7 +46,8 @@ namespace graupel
   {
     const Numbers      mine{static_cast<std::int64_t>(state.particles.size()),
                        static_cast<std::int64_t>(state.contacts.size())};
-    const Numbers      below = on_lower_ranks(mine, communicator);
+    const Numbers      below{on_lower_ranks(mine.particles, communicator),
+                        on_lower_ranks(mine.contacts, communicator)};
     const Numbers      all{mpi::sum(mine.particles, communicator),
                       mpi::sum(mine.contacts, communicator)};
     const std::int64_t length =

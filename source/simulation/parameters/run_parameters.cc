@@ -14,8 +14,6 @@ namespace graupel
 {
   namespace
   {
-    // Void fraction of a bed that is not there yet, for estimates only.
-    constexpr double guessed_void_fraction = 0.4;
     // Of a particle, far beyond any that drag laws are made for [-].
     constexpr double most_reynolds = 1e9;
   } // namespace

@@ -23,8 +23,6 @@ namespace graupel
     constexpr double steps_of_steady_case = 40.;
     // Fall through the vessel's height in which a bed is packed [-].
     constexpr double falls_of_packing = 8.;
-    // Void fraction of a bed that is not there yet [-].
-    constexpr double guessed_void_fraction = 0.4;
 
     // What no run does.
     constexpr double most_substeps_in_step = 1e7, most_substeps = 1e12,

@@ -7,8 +7,6 @@ namespace graupel
 {
   namespace
   {
-    // Void fraction of a bed that is not there yet [-].
-    constexpr double guessed_void_fraction = 0.4;
     // A filter's standard deviation below which a particle pushes on its own
     // disturbance, in diameters, and one beyond which it blurs the vessel, in diameters
     // of that [-].

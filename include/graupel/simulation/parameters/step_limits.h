@@ -5,6 +5,9 @@
 
 namespace graupel
 {
+  /** Void fraction of a bed that is not there yet, for estimates only [-]. */
+  constexpr double guessed_void_fraction = 0.4;
+
   /** Steps of the fluid [s] that resolve what moves in a bed. */
   struct StepLimits
   {
