@@ -20,6 +20,22 @@ def mean_with_error(values):
     return mean, error
 
 
+def rms_with_error(values):
+    """Root mean square of the deviation from the mean of a series at equal steps, and the
+    standard error of it."""
+    square, error = mean_with_error((values - np.mean(values)) ** 2)
+    rms = float(np.sqrt(square))
+    return rms, 0.5 * error / rms
+
+
+def crossings_with_error(time, values):
+    """How often in a second a series at equal steps comes up through its mean [Hz], and the
+    standard error of it."""
+    above = values > np.mean(values)
+    step = (time[-1] - time[0]) / (len(time) - 1)
+    return mean_with_error((above[1:] & ~above[:-1]) / step)
+
+
 def at_equal_steps(time, values, count=4096):
     """A series that was written at unequal times, interpolated to equal steps."""
     times = np.linspace(time[0], time[-1], min(count, len(time)))

@@ -32,6 +32,7 @@ class Run:
     file: str  # parameter file, in the folder of the case
     values: dict = field(default_factory=dict)  # overridden parameters
     is_long: bool = False  # more than some minutes: only when asked for by --long
+    ranks: int = None  # where the case is about them; else as many as the program is given
 
 
 @dataclass

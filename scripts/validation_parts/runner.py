@@ -3,6 +3,8 @@
 import subprocess
 import time
 
+from common.program import environment
+
 from .case import FOLDER, ROOT
 
 
@@ -24,7 +26,10 @@ class Runner:
 
     def command(self, case, run, *more):
         """The command line of a run."""
-        command = [str(self.program or ROOT / "scripts" / "run"), str(FOLDER / case / run.file)]
+        program = [str(self.program or ROOT / "scripts" / "run")]
+        if run.ranks and self.program:
+            program = ["mpirun", "--oversubscribe", "-np", str(run.ranks), *program]
+        command = [*program, str(FOLDER / case / run.file)]
         for name, value in run.values.items():
             command += ["--set", f"{name}={value}"]
         return command + list(more)
@@ -32,7 +37,8 @@ class Runner:
     def check(self, case, run):
         """What --check says against a run; empty if nothing."""
         done = subprocess.run(
-            self.command(case, run, "--check"), capture_output=True, text=True, check=False
+            self.command(case, run, "--check"), env=environment(), capture_output=True, text=True,
+            check=False,
         )
         return "" if done.returncode == 0 else (done.stdout + done.stderr).strip()
 
@@ -49,7 +55,10 @@ class Runner:
         more = ["--output", str(directory), "--set", "Output/report=false"]
         if any(directory.glob("checkpoint*")):
             more.append("--resume")
-        status = subprocess.run(self.command(case, run, *more), check=False).returncode
+        told = {"GRAUPEL_RANKS": str(run.ranks)} if run.ranks else {}
+        status = subprocess.run(
+            self.command(case, run, *more), env={**environment(), **told}, check=False
+        ).returncode
         took = f"{time.monotonic() - begin:.0f} s"
         if status:
             print(f"== {case}/{run.name} has failed with status {status} after {took}", flush=True)

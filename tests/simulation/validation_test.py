@@ -15,7 +15,7 @@ import numpy as np
 from common.force_balance import Suspension, dallavalle, ergun, rong, wen_yu
 from common.reference import ergun_pressure_drop
 from common.run_output import RunOutput
-from common.statistics import mean_with_error
+from common.statistics import crossings_with_error, mean_with_error, rms_with_error
 from validation_parts import page
 from validation_parts.case import Comparison, load, names
 
@@ -186,6 +186,20 @@ class Statistics(unittest.TestCase):
         values = np.repeat(np.random.default_rng(2).normal(0.0, 1.0, 512), 16)
         _, error = mean_with_error(values)
         self.assertTrue(0.9 / math.sqrt(512) < error < 2.0 / math.sqrt(512), error)
+
+    def test_the_rms_of_independent_values(self):
+        values = np.random.default_rng(3).normal(3.0, 0.5, 4096)
+        rms, error = rms_with_error(values)
+        expected = 0.5 / math.sqrt(2.0 * 4096)
+        self.assertAlmostEqual(rms, 0.5, delta=4.0 * expected)
+        self.assertTrue(0.9 * expected < error < 2.0 * expected, error)
+
+    def test_how_often_a_wave_rises(self):
+        time = np.linspace(0.0, 8.0, 4001)
+        frequency, error = crossings_with_error(time, 2.0 + np.sin(2.0 * math.pi * 3.0 * time - 0.1))
+        self.assertAlmostEqual(frequency, 3.0, delta=1e-9)
+        # What comes at equal times is known better than what comes at random, sqrt(3 / 8).
+        self.assertLess(error, 0.7)
 
 
 if __name__ == "__main__":
