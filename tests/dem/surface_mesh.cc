@@ -264,6 +264,20 @@ namespace
 
   // Across the joints of a plate that lies askew, and over the common corner of
   // a fan of triangles: one contact with one name, same distance and normal.
+  // As they do where a mesh program computes a corner anew for each triangle.
+  TEST(SurfaceMesh, CornersMayDifferByRounding)
+  {
+    auto triangles = plate(Point<3>(0.3, -0.2, 0.1),
+                           Tensor<1, 3>({0.1, 0., 0.}),
+                           Tensor<1, 3>({0., 0.1, 0.}),
+                           4);
+    for (unsigned int t = 0; t < triangles.size(); ++t)
+      for (auto &corner : triangles[t])
+        for (unsigned int d = 0; d < 3; ++d)
+          corner[d] *= 1. + 2e-16 * (t % 3);
+    EXPECT_EQ(SurfaceMesh(triangles).n_facets(), 1u);
+  }
+
   TEST(SurfaceMesh, FlatJointsAreNotFelt)
   {
     const Tensor<1, 3> a({0.6, 0.8, 0.}), b({-0.64, 0.48, 0.6});

@@ -1,5 +1,7 @@
 #include <graupel/dem/walls/surface_topology.h>
 
+#include <deal.II/numerics/rtree.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -12,6 +14,9 @@ namespace graupel
     // Of the largest coordinate: how far single precision or six printed digits
     // move a corner out of its plane.
     constexpr double flatness = 1e-5;
+
+    // Of the largest coordinate: how far rounding moves a corner that was computed twice.
+    constexpr double same_corner = 1e-13;
 
     constexpr unsigned int unassigned = static_cast<unsigned int>(-1);
 
@@ -89,7 +94,7 @@ namespace graupel
     return {facets.begin(item), facets.end(item)};
   }
 
-  // Corners with the same numbers become one vertex.
+  // Corners with the same numbers become one vertex, and so do those next to each other.
   void
   SurfaceTopology::join_corners(const std::vector<Triangle> &soup)
   {
@@ -115,6 +120,23 @@ namespace graupel
         for (unsigned int d = 0; d < 3; ++d)
           largest_coordinate = std::max(largest_coordinate, std::abs(corner(c)[d]));
       }
+
+    namespace index                 = boost::geometry::index;
+    const auto                 tree = dealii::pack_rtree_of_indices(vertices);
+    const dealii::Tensor<1, 3> reach({same_corner * largest_coordinate,
+                                      same_corner * largest_coordinate,
+                                      same_corner * largest_coordinate});
+    std::vector<unsigned int>  first(vertices.size());
+    for (unsigned int v = 0; v < vertices.size(); ++v)
+      {
+        const dealii::BoundingBox<3> near({vertices[v] - reach, vertices[v] + reach});
+        first[v] = v;
+        for (const auto other : tree | index::adaptors::queried(index::intersects(near)))
+          first[v] = std::min<unsigned int>(first[v], other);
+      }
+    for (auto &of_triangle : corners)
+      for (unsigned int &vertex : of_triangle)
+        vertex = first[vertex];
   }
 
   void
