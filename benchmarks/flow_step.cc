@@ -82,7 +82,8 @@ main(int argc, char **argv)
 
   const bool first = dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0;
   if (first)
-    std::cout << "ranks cells wall[s/step] cpu[s/step] cpu[us/cell/step] iterations "
+    std::cout << "ranks cells pairs_of_nodes wall[s/step] cpu[s/step] cpu[us/cell/step] "
+                 "iterations "
                  "mass_imbalance pressure_drop[Pa]"
               << std::endl;
   const FluidProperties gas;
@@ -113,10 +114,10 @@ main(int argc, char **argv)
       const auto n_cells = mesh.triangulation().n_global_active_cells();
       if (first)
         std::cout << dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD) << " "
-                  << n_cells << " " << wall_step << " " << cpu_step << " "
-                  << cpu_step / n_cells * 1e6 << " "
-                  << static_cast<double>(iterations) / n_steps << " " << imbalance << " "
-                  << drop << std::endl;
+                  << n_cells << " " << nodes.coupling_pattern.n_nonzero_elements() << " "
+                  << wall_step << " " << cpu_step << " " << cpu_step / n_cells * 1e6
+                  << " " << static_cast<double>(iterations) / n_steps << " " << imbalance
+                  << " " << drop << std::endl;
     }
   return 0;
 }
