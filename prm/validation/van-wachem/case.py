@@ -3,7 +3,7 @@
 import numpy as np
 from matplotlib.mlab import psd
 
-from common.statistics import at_equal_steps, mean_with_error
+from common.statistics import at_equal_steps, mean_with_error, rms_with_error
 from common.style import BLUE, GREY, new_figure
 from validation_parts.case import Comparison, Run, measured
 
@@ -34,15 +34,20 @@ def mean_height():
     return float(np.mean(at_equal_steps(time, height)))
 
 
+def rms_height():
+    """Its rms about the mean [m]."""
+    return float(np.std(at_equal_steps(*of_laboratory("bed_height"))))
+
+
 def later(run):
-    """Time, pressure at the port and height of the bed at equal steps after FROM."""
+    """Time, pressure at the port and height of the bed's surface at equal steps after FROM."""
     time = run.probes["time"]
     flow = run.monitors["phase"] == "flow"
     begin = min(time[0] + FROM, 0.5 * (time[0] + time[-1]))
     rows = time >= begin
     of_run = flow & (run.monitors["time"] >= begin)
-    height = at_equal_steps(run.monitors["time"][of_run], run.monitors["expanded_height"][of_run])
-    pressure = run.probes[next(name for name in run.probes if name.startswith("pressure"))]
+    height = at_equal_steps(run.monitors["time"][of_run], run.monitors["bed_height"][of_run])
+    pressure = run.probes["port_pressure"]
     equal = at_equal_steps(time[rows], pressure[rows])
     return np.linspace(time[rows][0], time[-1], len(equal)), equal, height
 
@@ -70,8 +75,10 @@ def evaluate(results):
                    run=NAME),
         Comparison("frequency of the pressure", "Hz", float(frequency[np.argmax(density)]),
                    dominant(time, pressure), limit=0.15, decimals=2, run=NAME),
-        Comparison("rms of the pressure at 45 mm", "Pa", RMS, float(np.std(pressure)), decimals=1,
+        Comparison("rms of the height", "m", rms_height(), *rms_with_error(height), decimals=4,
                    run=NAME),
+        Comparison("rms of the pressure at 45 mm", "Pa", RMS, *rms_with_error(pressure),
+                   decimals=1, run=NAME),
     ]  # fmt: skip
 
 
