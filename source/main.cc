@@ -18,10 +18,10 @@ namespace
 {
   struct Options
   {
-    std::string              file, output;
+    std::string              file, output, print_parameters;
     std::vector<std::string> overrides;
-    bool   check = false, print_parameters = false, print_columns = false, resume = false;
-    double time_limit = 0.; // [min], 0 for none
+    bool                     check = false, print_columns = false, resume = false;
+    double                   time_limit = 0.; // [min], 0 for none
   };
 
   enum class Outcome
@@ -72,17 +72,21 @@ namespace
   add_options(CLI::App &app, Options &options)
   {
     app.set_version_flag("--version", "graupel " GRAUPEL_VERSION);
-    app.add_option("FILE", options.file, "Parameter file (.prm); examples are in prm/");
+    app.add_option(
+      "FILE", options.file, "Parameter file (.prm, .json, .xml); examples are in prm/");
     app.add_flag(
       "--check",
       options.check,
       "Read the parameters, look for contradictions, print dimensionless groups and "
       "step sizes, and stop");
-    app.add_flag(
-      "--print-parameters",
-      options.print_parameters,
-      "Print every parameter with its explanation and value (the default without "
-      "FILE), and stop");
+    app
+      .add_flag(
+        "--print-parameters{prm}",
+        options.print_parameters,
+        "Print every parameter with its explanation and value (the default "
+        "without FILE), and stop; as JSON or XML with =json or =xml, which can be "
+        "FILE in their turn")
+      ->check(CLI::IsMember({"prm", "json", "xml"}));
     app.add_flag(
       "--print-columns",
       options.print_columns,
@@ -197,12 +201,14 @@ namespace
           print_columns();
         if (options.print_columns)
           return Outcome::told;
-        if (options.print_parameters)
+        if (!options.print_parameters.empty())
           {
+            using Handler    = dealii::ParameterHandler;
+            const auto style = options.print_parameters == "json"  ? Handler::JSON
+                               : options.print_parameters == "xml" ? Handler::XML
+                                                                   : Handler::PRM;
             if (is_first_rank())
-              prm.print_parameters(std::cout,
-                                   dealii::ParameterHandler::PRM |
-                                     dealii::ParameterHandler::KeepDeclarationOrder);
+              prm.print_parameters(std::cout, style | Handler::KeepDeclarationOrder);
             return Outcome::told;
           }
         parameters.texts = file.texts();
@@ -264,7 +270,8 @@ main(int argc, char **argv)
       {
         return first ? app.exit(message) : message.get_exit_code();
       }
-    if (options.file.empty() && !options.print_parameters && !options.print_columns)
+    if (options.file.empty() && options.print_parameters.empty() &&
+        !options.print_columns)
       {
         if (first)
           std::cerr << "Which parameter file?\n\n" << app.help();

@@ -126,6 +126,19 @@ namespace graupel
              (value.empty() || value.back() != '\\');
     }
 
+    // Looked at before it is opened: /dev/zero never ends, a pipe may never begin.
+    std::ifstream
+    opened(const std::string &file_name, const bool may_be_pipe)
+    {
+      std::error_code none;
+      const auto      kind = std::filesystem::status(file_name, none).type();
+      std::ifstream   stream;
+      if (kind == std::filesystem::file_type::regular ||
+          (kind == std::filesystem::file_type::fifo && may_be_pipe))
+        stream.open(file_name);
+      return stream;
+    }
+
     /**
      * Walks through the statements of a file and of what it includes, and
      * hands every assignment on: path, value, and "FILE:LINE".
@@ -151,18 +164,13 @@ namespace graupel
                                     ? "this parameter file"
                                     : "the included file " + in_quotes(file_name);
 
-        // Looked at before it is opened: /dev/zero never ends, a pipe may never begin.
-        std::error_code none;
-        const auto      kind = std::filesystem::status(file_name, none).type();
-        std::ifstream   stream;
-        if (kind == std::filesystem::file_type::regular ||
-            (kind == std::filesystem::file_type::fifo && asked_by.empty()))
-          stream.open(file_name);
+        std::ifstream stream = opened(file_name, asked_by.empty());
         if (!stream.is_open())
           refuse(where, "cannot read " + what + "; is the path right?");
 
         // By another path (a link, "./") it is still the same file.
         const auto is_the_same = [&](const std::string &open) {
+          std::error_code none;
           return std::filesystem::equivalent(open, file_name, none);
         };
         if (std::any_of(open_files.begin(), open_files.end(), is_the_same))
@@ -315,6 +323,9 @@ namespace graupel
   void
   ParameterFile::read(const std::string &file_name)
   {
+    const std::string kind = std::filesystem::path(file_name).extension().string();
+    if (kind == ".json" || kind == ".xml")
+      return read_tree(file_name, kind == ".json");
     Reader(known, [this](const auto &path, const auto &value, const auto &origin) {
       assign(path, value, origin);
     }).read_file(file_name, "");
@@ -326,6 +337,34 @@ namespace graupel
     Reader(known, [this](const auto &path, const auto &value, const auto &origin) {
       assign(path, value, origin);
     }).read_stream(stream, name);
+  }
+
+  void
+  ParameterFile::read_tree(const std::string &file_name, const bool is_json)
+  {
+    std::ifstream stream = opened(file_name, true);
+    if (!stream.is_open())
+      refuse(file_name, "cannot read this parameter file; is the path right?");
+    try
+      {
+        if (is_json)
+          handler.parse_input_from_json(stream);
+        else
+          handler.parse_input_from_xml(stream);
+      }
+    catch (const dealii::ExceptionBase &error)
+      {
+        std::ostringstream text;
+        error.print_info(text);
+        refuse(file_name, "this is no parameter file: " + trimmed(text.str()));
+      }
+    catch (const std::exception &error)
+      {
+        refuse(file_name, std::string("this is no parameter file: ") + error.what());
+      }
+    // As if each were set by itself.
+    for (const auto &[path, value] : texts())
+      assign(path, value, file_name + ':' + path);
   }
 
   void

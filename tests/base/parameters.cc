@@ -259,6 +259,68 @@ TEST(ParameterFile, ReadsWhatIsPrinted)
     }
 }
 
+// As deal.II writes them, and as a script would.
+TEST_F(Files, JsonAndXmlHoldWhatAFileHolds)
+{
+  Declared           written;
+  ParameterFile      from(written.handler);
+  std::istringstream stream("subsection Geometry\nset diameter = 0.05\nend\n"
+                            "subsection Coupling\nsubsection Filter\nset length = 0.002\n"
+                            "end\nend\nsubsection Output\nset name = a b\nend\n");
+  from.read(stream, "case.prm");
+  using Handler = dealii::ParameterHandler;
+  const std::vector<std::pair<std::string, int>> forms{
+    {"long.json", Handler::JSON | Handler::KeepDeclarationOrder},
+    {"short.json", Handler::ShortJSON},
+    {"long.xml", Handler::XML},
+    {"short.xml", Handler::ShortXML}};
+  for (const auto &[name, form] : forms)
+    {
+      std::ostringstream text;
+      written.handler.print_parameters(text, Handler::OutputStyle(form));
+      Declared      read;
+      ParameterFile file(read.handler);
+      file.read(write(name, text.str()));
+      EXPECT_EQ(file.texts(), from.texts()) << name;
+      EXPECT_EQ(read.diameter, 0.05) << name;
+    }
+
+  Declared      own;
+  ParameterFile file(own.handler);
+  const auto path = write("own.json", R"({"Geometry": {"diameter": -1, "layers": "7"}})");
+  file.read(path);
+  EXPECT_EQ(own.layers, 7u);
+  EXPECT_EQ(file.explain(InputError("Geometry/diameter", "must be above 0")),
+            path + ":Geometry/diameter: Geometry/diameter = -1: must be above 0");
+
+  const auto complaint_about = [&](const std::string &name, const std::string &text) {
+    Declared      declared;
+    ParameterFile bad(declared.handler);
+    try
+      {
+        bad.read(write(name, text));
+      }
+    catch (const InputError &error)
+      {
+        return std::string(error.what());
+      }
+    return std::string();
+  };
+  for (const auto &[name, text, said] : std::vector<std::array<std::string, 3>>{
+         {"a.json", R"({"Geometry": {"diametre": 1}})", "diametre"},
+         {"b.json", R"({"Geometry": {"layers": "many"}})", "many"},
+         {"c.json", R"({"Geometry": )", "no parameter file"},
+         {"d.xml",
+          "<ParameterHandler><Geometry></ParameterHandler>",
+          "no parameter file"},
+         {"e.xml", "", "no parameter file"}})
+    {
+      const std::string found = complaint_about(name, text);
+      EXPECT_NE(found.find(said), std::string::npos) << name << ": " << found;
+      EXPECT_EQ(found.rfind((folder / name).string(), 0), 0u) << found;
+    }
+}
+
 TEST(ParameterFile, RefusesWhatNoFileCanHold)
 {
   for (const std::string name : {"a #1", "a\t#1", "#1", "a\\", "a\nb"})

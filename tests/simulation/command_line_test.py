@@ -31,12 +31,16 @@ class Options(unittest.TestCase):
         self.assertIn("onset of fluidisation", finished.stdout)
 
     def test_printed_parameters_can_be_read_again(self):
+        values = ("--set", "Particles/density=1100")
         with tempfile.TemporaryDirectory() as folder:
-            path = pathlib.Path(folder) / "all.prm"
-            path.write_text(call("--print-parameters").stdout)
-            self.assertGreater(len(path.read_text()), 2000)
-            finished = call(path, "--check")
-            self.assertEqual(finished.returncode, 0, finished.stderr)
+            for form in ("prm", "json", "xml"):
+                path = pathlib.Path(folder) / f"all.{form}"
+                path.write_text(call(SHORT, *values, f"--print-parameters={form}").stdout)
+                self.assertGreater(len(path.read_text()), 2000)
+                again = call(path, "--print-parameters")
+                self.assertEqual(again.stdout, call(SHORT, *values, "--print-parameters").stdout)
+                finished = call(path, "--check")
+                self.assertEqual(finished.returncode, 0, finished.stderr)
 
 
 class BadInput(unittest.TestCase):

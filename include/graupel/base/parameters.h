@@ -63,7 +63,8 @@ namespace graupel
     explicit ParameterFile(dealii::ParameterHandler &handler);
 
     /**
-     * Reads a whole file. Throws InputError for an unknown section or entry
+     * Reads a whole file; one whose name ends in .json or .xml as deal.II writes these
+     * (values by section and name, in its long or its short form). Throws InputError for an unknown section or entry
      * (naming the nearest known one), for a value that does not fit its
      * entry's pattern, and for a file that cannot be read (or is no file, as
      * /dev/zero), that includes itself or is not closed.
@@ -90,6 +91,7 @@ namespace graupel
     const std::vector<std::string> &known_parameters() const;
 
   private:
+    void read_tree(const std::string &file_name, const bool is_json);
     void assign(const std::string &path,
                 const std::string &value,
                 const std::string &origin);
