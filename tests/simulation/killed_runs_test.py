@@ -2,24 +2,19 @@
 run that was not: bit by bit on the same number of ranks. Called with the path of the binary.
 """
 
-import contextlib
 import itertools
 import os
 import pathlib
 import re
 import shlex
 import shutil
-import signal
 import subprocess
-import time
 
-from runs import ROOT, RunTest, command, main, overrides
+from interrupted_runs import ALWAYS, InterruptedRuns
+from runs import command, main, overrides
 
-from common.program import NOT_WRITTEN, STOPPED, environment, processes_in
+from common.program import NOT_WRITTEN, STOPPED, environment
 
-CASES = ROOT / "tests" / "cases"
-# A checkpoint after each step.
-ALWAYS = {"Output/checkpoint interval": 1e-6}
 # A window that the run is killed in, and what is averaged over it.
 AVERAGES = {
     "Flow/time step": 2e-3,
@@ -34,89 +29,6 @@ MEANS = [
     f"{name}-01.csv"
     for name in ("averages", "spectra", "averages-lines", "averages-planes", "averages-midplane")
 ] + ["snapshots.csv", "probes.csv"]
-
-
-class InterruptedRuns(RunTest):
-    """Runs that end before their time."""
-
-    def setUp(self):
-        super().setUp()
-        shutil.copytree(CASES, self.path, dirs_exist_ok=True)
-
-    def start(self, file, values, ranks):
-        """A run that goes on, in a group of its own."""
-        words = command(file, "--output", "killed", *overrides(values), ranks=ranks)
-        return subprocess.Popen(
-            words, cwd=self.path, env=environment(), text=True,
-            stdout=subprocess.PIPE, start_new_session=True,
-        )  # fmt: skip
-
-    def wait_for(self, phase, run, needs_checkpoint):
-        """Until monitors.csv has some rows of the phase."""
-        output = self.path / "killed"
-        monitors = output / "monitors.csv"
-        # 100 spheres are in after 20 ms; a flow is well on its way.
-        rows_before = {"fill": 1, "settle": 3, "flow": 12}[phase]
-        end = time.monotonic() + 300
-        while time.monotonic() < end:
-            rows = monitors.read_text().splitlines() if monitors.exists() else []
-            in_phase = [row for row in rows if f",{phase}," in row]
-            has_checkpoint = (output / "checkpoint").is_dir()
-            if len(in_phase) >= rows_before and (has_checkpoint or not needs_checkpoint):
-                return
-            self.assertIsNone(run.poll(), f"it ended before that many rows of {phase}")
-            time.sleep(0.001)
-        self.fail(f"there are not that many rows of {phase} after five minutes")
-
-    def kill(self, run):
-        """Kills all ranks of a run, with what started them, and returns when they are gone.
-        mpirun gives each rank a group of its own, and one that outlived it would still write."""
-
-        while left := processes_in(self.path):
-            for process in left:
-                with contextlib.suppress(ProcessLookupError):
-                    os.kill(int(process.name), signal.SIGKILL)
-            time.sleep(0.001)
-        run.communicate()
-
-    def kill_in(self, phase, file, values, ranks):
-        """Kills a run when a checkpoint lies behind the phase's first rows."""
-        run = self.start(file, {**values, **ALWAYS}, ranks)
-        self.wait_for(phase, run, needs_checkpoint=True)
-        self.kill(run)
-
-    def stop_in(self, phase, file, values, ranks):
-        """Asks a run to stop: its only checkpoint within a phase is the one that it then
-        writes. mpirun hands on SIGUSR1, but kills at SIGTERM."""
-        run = self.start(file, values, ranks)
-        self.wait_for(phase, run, needs_checkpoint=False)
-        run.send_signal(signal.SIGTERM if ranks == 1 else signal.SIGUSR1)
-        said, _ = run.communicate(timeout=60)
-        self.assertEqual(run.returncode, STOPPED, said)
-        self.assertIn("asked to by a signal", said)
-        self.assertIn("--resume", said)
-
-    def expect_the_same(self, file, values, phases, further=(), ranks=1, end=None):
-        whole = self.run_file(file, values, output="whole", ranks=ranks)
-        self.assertEqual(whole.status, 0, whole)
-        for phase in phases:
-            shutil.rmtree(self.path / "killed", ignore_errors=True)
-            (end or self.kill_in)(phase, file, values, ranks)
-            output = self.path / "killed"
-            self.assertFalse((output / "summary.json").exists())
-            resumed = self.run_file(
-                file, values, "--resume", output="killed", ranks=ranks
-            )
-            self.assertEqual(resumed.status, 0, resumed)
-            self.assertIn("resumed at", resumed.said)
-            for name in ("monitors.csv", "wall-forces.csv", *further):
-                one, other = (
-                    (folder / name).read_text().splitlines()
-                    for folder in (whole.directory, output)
-                )
-                self.assertEqual(len(one), len(other), f"{name}, killed in {phase}")
-                for there, here in zip(one, other):
-                    self.assertEqual(there, here, f"{name}, killed in {phase}")
 
 
 class KilledRuns(InterruptedRuns):
