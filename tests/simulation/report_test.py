@@ -13,13 +13,13 @@ import time
 import unittest
 from pathlib import Path
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "scripts"))
+sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "python"))
 
 import numpy as np
 
-import report
-from common import reference, run_output, style
-from report_parts import figures_inside, figures_run, figures_time, page, words
+from graupel import run as run_output
+from graupel.report import __main__ as report, reference, style
+from graupel.report import figures_inside, figures_run, figures_time, page, words
 from report_fixture import DENSITY, VESSEL, VISCOSITY, one_case, summary_of, write_run
 
 
@@ -336,10 +336,10 @@ class Comparison(ReportTest):
             (2.0, 0.05, None),
         ):
             with self.subTest(scale=scale, vessel=vessel):
-                run = run_output.RunOutput(self.directory, summary_of([], scale, vessel))
+                run = run_output.Run(self.directory, summary_of([], scale, vessel))
                 paper = reference.paper_for(run)
                 self.assertEqual(paper and paper.scale, expected)
-        run = run_output.RunOutput(self.directory, summary_of([], 2.0))
+        run = run_output.Run(self.directory, summary_of([], 2.0))
         paper = reference.paper_for(run)
         self.assertEqual(paper.names, ["1", "2", "3", "4", "5", "6"])
         self.assertEqual(paper.onset_velocity, 0.548)
@@ -358,21 +358,21 @@ class Comparison(ReportTest):
         for case, value in zip(cases, (-0.01, 0.03, -0.02, -0.12)):
             case["deviation_from_ergun"] = value
         cases[3]["fluidized"] = True
-        text = words.the_flow(run_output.RunOutput(self.directory, {}, cases))
+        text = words.the_flow(run_output.Run(self.directory, cases=cases))
         self.assertIn("by at most +3.0\u00a0%,", text)
 
     def test_what_is_left_in_numbers(self):
         cases = [dict(one_case(0.3, False), number=number) for number in (1, 2)]
         cases[1].update(gradient_deviation_from_ergun=-0.025, deviation_from_ergun=-0.035)
         lifted = dict(one_case(0.5, True), number=3, gradient_deviation_from_ergun=-0.2)
-        run = run_output.RunOutput(self.directory, {}, [*cases, lifted])
+        run = run_output.Run(self.directory, cases=[*cases, lifted])
         text = words.what_is_left(run)
         self.assertIn("predicts −1.8\u00a0% in", text)
         self.assertIn("deviates by −2.5\u00a0% to −2.1\u00a0%, which leaves −0.7 to −0.3", text)
         self.assertIn("further −1.0 to −0.9 points", text)
 
     def test_weight_over_area(self):
-        run = run_output.RunOutput(self.directory, summary_of([]), [one_case(0.3, False)])
+        run = run_output.Run(self.directory, summary_of([]), cases=[one_case(0.3, False)])
         # 0.48 N over 4.9087e-4 m^2.
         self.assertAlmostEqual(reference.weight_per_area(run), 977.85, delta=0.01)
 
@@ -430,7 +430,7 @@ class Reading(ReportTest):
         self.assertIsNone(run_output.as_flag(""))
 
     def test_title_without_parameter_file_is_the_directory(self):
-        run = run_output.RunOutput(self.directory)
+        run = run_output.Run(self.directory)
         self.assertEqual(page.title_of(run), f"Graupel: {self.directory.resolve().name}")
 
 

@@ -4,7 +4,7 @@ import numpy as np
 
 from common.fluidisation import later_rows, supported_drop
 from common.statistics import at_equal_steps, mean_with_error
-from common.style import BLUE, GREY, new_figure
+from graupel.report.style import BLUE, GREY, new_figure
 from validation_parts.case import Comparison, Run
 
 TITLE = "The paper's column at 1.5 and 2 times the onset of fluidisation"

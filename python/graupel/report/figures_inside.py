@@ -3,9 +3,9 @@
 import numpy as np
 from matplotlib.colors import Normalize
 
-from common.run_output import grid_of
-from common.style import BLACK, GREY, MILLI, NothingToShow, colour_of_each, known, new_figure
-from common.style import of_cases
+from ..run import grid_of
+from .style import BLACK, GREY, MILLI, NothingToShow, colour_of_each, known, new_figure
+from .style import of_cases
 
 from .figures_bed import label_of
 

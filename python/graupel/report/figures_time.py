@@ -2,8 +2,8 @@
 
 import numpy as np
 
-from common.run_output import WALL_FORCE
-from common.style import NotOfThisRun, colour_of_each, known, new_figure
+from ..run import WALL_FORCE
+from .style import NotOfThisRun, colour_of_each, known, new_figure
 
 from .figures_run import shade_stretches, thinned
 

@@ -1,7 +1,7 @@
 """What a run is compared with: Ergun's equation, and the paper that it reproduces.
 
 Paper: M. Ricklick, O. Baran, Analytical scaling of DEM particles for efficient
-packed-bed simulations (2014); its Table 1 is doc/ricklick-baran-2014-table1.csv.
+packed-bed simulations (2014); its Table 1 is ricklick-baran-2014-table1.csv beside this file.
 """
 
 import csv
@@ -11,8 +11,10 @@ from pathlib import Path
 
 import numpy as np
 
-TABLE_1 = Path(__file__).resolve().parents[2] / "doc" / "ricklick-baran-2014-table1.csv"
+TABLE_1 = Path(__file__).with_name("ricklick-baran-2014-table1.csv")
 
+# Its name in Output/reference.
+PAPER = "ricklick-baran-2014"
 PAPER_DIAMETER = 1.6e-3
 PAPER_VESSEL = 25e-3
 
@@ -107,6 +109,11 @@ def paper_for(run, table=TABLE_1):
     paper.void_fraction = np.array([float(row["alpha"]) for row in rows])
     paper.ergun = np.array([float(row["dp_ergun"]) for row in rows])
     return paper
+
+
+def chosen_paper(run):
+    """The paper's findings if the run names them as its reference (Output/reference)."""
+    return paper_for(run) if run.get("reference") == PAPER else None
 
 
 def weight_per_area(run, area=None):

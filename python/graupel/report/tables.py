@@ -4,7 +4,7 @@ from html import escape
 
 import numpy as np
 
-from common import reference
+from . import reference
 
 from . import words
 

@@ -3,9 +3,9 @@
 import numpy as np
 from matplotlib.colors import Normalize
 
-from common.run_output import grid_of
-from common.style import BLACK, BLUE, GREY, MILLI, VERMILLION
-from common.style import NotOfThisRun, colour_of_each, known, new_figure
+from ..run import grid_of
+from .style import BLACK, BLUE, GREY, MILLI, VERMILLION
+from .style import NotOfThisRun, colour_of_each, known, new_figure
 
 from .figures_inside import draw_field, panels, void_fraction_range
 from .figures_run import thinned

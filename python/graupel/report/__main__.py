@@ -15,10 +15,10 @@ import sys
 from pathlib import Path
 
 try:
-    from common import reference, style
-    from common.run_output import read_run
-    from report_parts import figures_averages, figures_bed, figures_inside, figures_run, figures_settled
-    from report_parts import figures_time, page, study
+    from . import reference, style
+    from ..run import read_run
+    from . import figures_averages, figures_bed, figures_inside, figures_run, figures_settled
+    from . import figures_time, page, study
 except ImportError as error:
     sys.exit(f"report.py: {error}. The report needs Debian's python3-matplotlib.")
 
@@ -79,7 +79,7 @@ def write_report(directory):
     if run.empty():
         print(f"report.py: {directory} holds no output of a run.", file=sys.stderr)
         return 1
-    paper = reference.paper_for(run)
+    paper = reference.chosen_paper(run)
     try:
         figures = make_figures(run, paper, directory / "figures")
         (directory / "report.html").write_text(page.page(run, paper, figures), encoding="utf-8")

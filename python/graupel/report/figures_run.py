@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from common.style import (
+from .style import (
     BLUE,
     GREEN,
     GREY,

@@ -2,8 +2,8 @@
 
 import numpy as np
 
-from common.style import BLACK, BLUE, GREY, MILLI, ORANGE, VERMILLION, NothingToShow, NotOfThisRun
-from common.style import known, new_figure
+from .style import BLACK, BLUE, GREY, MILLI, ORANGE, VERMILLION, NothingToShow, NotOfThisRun
+from .style import known, new_figure
 
 
 def table_of(run, name):

@@ -1,6 +1,6 @@
 """Numbers and findings as text."""
 
-from common import reference
+from . import reference
 
 NONE = "-"
 MINUS = "\u2212"

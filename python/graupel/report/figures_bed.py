@@ -2,11 +2,11 @@
 
 import numpy as np
 
-from common import reference
-from common.style import BLACK, BLUE, GREEN, GREY, ORANGE, PURPLE, VERMILLION
-from common.style import MILLI, PERCENT, NothingToShow, colour_of_each, column, known
-from common.style import diamonds, need_cases, new_figure, note, of_cases, plot_cases
-from common.style import shade_papers_band, velocity_axis
+from . import reference
+from .style import BLACK, BLUE, GREEN, GREY, ORANGE, PURPLE, VERMILLION
+from .style import MILLI, PERCENT, NothingToShow, colour_of_each, column, known
+from .style import diamonds, need_cases, new_figure, note, of_cases, plot_cases
+from .style import shade_papers_band, velocity_axis
 
 
 def label_of(run, number):

@@ -5,8 +5,8 @@ from pathlib import Path
 
 import numpy as np
 
-from common.style import BLACK, BLUE, GREY, PERCENT, VERMILLION, new_figure, render
-from common.study_table import read_study
+from .style import BLACK, BLUE, GREY, PERCENT, VERMILLION, new_figure, render
+from ..study import read_study
 
 from . import page
 
