@@ -20,6 +20,10 @@ from .parameters import read_parameters
 from .vtu import pvd_records, read_vtu
 
 
+# Tables that have no rows where the vessel is not a whole cylinder.
+OF_CYLINDERS = ("radial", "bed-radial")
+
+
 @dataclass
 class Run:
     """All of one run, in SI units (graupel.UNITS has them by column).
@@ -147,8 +151,9 @@ def as_flag(value):
     return None
 
 
-def read_table(path, columns, notices):
-    """Columns of a CSV file by name; None, with a notice, where it has no rows.
+def read_table(path, columns, notices, may_be_empty=False):
+    """Columns of a CSV file by name; None where it has no rows, with a notice unless it may
+    have none.
 
     Incomplete rows (a run that was killed while writing) are left out and
     counted in a notice; a missing column is NaN throughout.
@@ -160,7 +165,8 @@ def read_table(path, columns, notices):
         notices.append(f"{path.name} cannot be read: {error}.")
         return None
     if len(rows) < 2:
-        notices.append(f"{path.name} holds no rows of values.")
+        if not (may_be_empty and rows):
+            notices.append(f"{path.name} holds no rows of values.")
         return None
 
     header = [name.strip() for name in rows[0]]
@@ -254,7 +260,7 @@ def read_numbered(run, stem, columns, every_case=True, optional=False):
         if not match:
             continue
         on_disk.add(int(match.group(1)))
-        table = read_table(path, columns, notices)
+        table = read_table(path, columns, notices, stem in OF_CYLINDERS)
         if table is not None:
             tables[int(match.group(1))] = table
     if optional:
@@ -276,7 +282,8 @@ def read_run(directory):
 
     def table(name, columns=("time",)):
         path = run.directory / f"{name}.csv"
-        return read_table(path, columns, notices) if path.is_file() else None
+        is_there = path.is_file()
+        return read_table(path, columns, notices, name in OF_CYLINDERS) if is_there else None
 
     if (run.directory / "parameters.prm").is_file():
         run.parameters = read_parameters(run.directory / "parameters.prm")

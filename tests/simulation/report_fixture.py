@@ -67,6 +67,7 @@ def summary_of(cases, scale=1.0, vessel=VESSEL, original=1.6e-3):
             "vessel_height": 0.169,
             "original_diameter": original,
         },
+        "reference": reference.PAPER if original == 1.6e-3 and vessel == VESSEL else "none",
         "fluid": {"density": DENSITY, "viscosity": VISCOSITY},
         "cases": cases,
         "ledger": {
@@ -98,15 +99,13 @@ FURTHER_MONITORS = (
     "particles",
     "departed_particles",
     "fed_particles",
-    "force_bottom",
-    "force_left door",
 )
 
 
 def what_further_monitors_say(step):
     """Their values; the bed has no bottom in every other row."""
     bottom = "" if step % 2 else 0.0
-    return [0.3, bottom, 0.4, 20997 - step, step, 0, 0.1, 0.05]
+    return [0.3, bottom, 0.4, 20997 - step, step, 0]
 
 
 BINNED = ("velocity_z", "velocity_rms_z", "solid_flux_x", "solid_flux_z", "flux_z")
@@ -170,6 +169,9 @@ def write_run(directory, scale=1.0, vessel=VESSEL, steps=60):
         for step in range(steps)
     ]
     write_csv(directory / "monitors.csv", columns.MONITOR_COLUMNS + FURTHER_MONITORS, rows)
+    walls = ("time", "particles_on_bottom_z", "particles_on_wall_z", "fluid_on_bottom_z")
+    rows = [[step * 1e-3, -0.2 - step * 1e-3, 0.0, -0.1 if step else ""] for step in range(steps)]
+    write_csv(directory / "wall-forces.csv", walls, rows)
     probed = ("time", "inlet_pressure", "far_side_pressure", "inlet_velocity_z")
     rows = [[step * 1e-3, 400.0 - step, 10.0, 0.3 if step else ""] for step in range(steps)]
     write_csv(directory / "probes.csv", probed, rows)

@@ -33,6 +33,12 @@ def make_report(directory):
     return status, text, errors.getvalue()
 
 
+def without_figures(text):
+    """The page without images, scripts and the style sheet, non-breaking spaces as others."""
+    rest = re.sub(r"<(svg|script|style)\b.*?</\1>", "", text, flags=re.S)
+    return rest.replace("\u00a0", " ")
+
+
 class ReportTest(unittest.TestCase):
     """Each test has a directory of its own."""
 
@@ -61,7 +67,7 @@ class WholeReport(unittest.TestCase):
         start = time.monotonic()
         cls.status, cls.text, cls.errors = make_report(cls.directory)
         cls.seconds = time.monotonic() - start
-        cls.words = re.sub(r'src="[^"]*"', "", cls.text).replace("\u00a0", " ")
+        cls.words = without_figures(cls.text)
 
     def test_every_figure_is_inside_and_in_the_folder(self):
         self.assertEqual(self.status, 0)
@@ -76,15 +82,45 @@ class WholeReport(unittest.TestCase):
         self.assertNotRegex(self.words, r"\b(nan|None|inf)\b")
 
     def test_nothing_is_fetched(self):
-        sources = re.findall(r'(?:src|href)\s*=\s*"([^"]*)"', self.text)
-        self.assertEqual(len(sources), len(report.FIGURES))
-        for source in sources:
-            head, encoded = source.split(",", 1)
-            self.assertEqual(head, "data:image/svg+xml;base64")
-            svg = base64.b64decode(encoded).decode("utf-8")
-            for target in re.findall(r'(?:xlink:href|src)\s*=\s*"([^"]*)"', svg):
-                self.assertRegex(target, r"^(#|data:)")
-        self.assertNotRegex(self.words, r"url\(|@import|<script|<link")
+        targets = re.findall(r'\b(?:src|href)\s*=\s*"([^"]*)"', self.text)
+        targets += re.findall(r"url\(([^)]*)\)", self.text)
+        self.assertGreater(len(targets), 100)
+        for target in targets:
+            self.assertRegex(target, r"^(#|data:)")
+        self.assertNotRegex(self.text, r"@import|<link|<script[^>]*src|\bfetch\(|XMLHttpRequest")
+
+    def test_values_under_the_pointer_are_those_of_the_files(self):
+        figure = self.text[self.text.index('<figure id="pressure-profile">') :]
+        shown = json.loads(re.search(r'class="hover">(.*?)</script>', figure).group(1))
+        curve = next(one for one in shown["curves"] if one["label"].startswith("case 2"))
+        self.assertEqual(curve["case"], 2)
+        self.assertEqual(curve["axes"], ["height over the bottom z [mm]", "pressure over outlet [Pa]"])
+        profile = run_output.read_run(self.directory).profiles[2]
+        np.testing.assert_allclose(curve["values"][0::2], profile["z"] * 1e3, rtol=1e-4)
+        np.testing.assert_allclose(curve["values"][1::2], profile["pressure"], rtol=1e-4)
+        # Points in the figure, from left to right, as many as values.
+        self.assertEqual(len(curve["at"]), len(curve["values"]))
+        self.assertTrue(np.all(np.diff(curve["at"][0::2]) > 0))
+
+    def test_image_under_the_pointer(self):
+        figure = self.text[self.text.index('<figure id="void-fraction">') :]
+        shown = json.loads(re.search(r'class="hover">(.*?)</script>', figure).group(1))
+        image = shown["images"][0]
+        steps = np.frombuffer(base64.b64decode(image["steps"]), np.uint8).reshape(image["shape"])
+        low, high = image["range"]
+        values = low + (high - low) * steps / 254.0
+        table = run_output.read_run(self.directory).midplane[2]
+        _, _, expected = run_output.grid_of(table, "void_fraction")
+        # Half a step of 254.
+        np.testing.assert_allclose(values, expected, atol=0.5 * (high - low) / 254.0 + 1e-9)
+
+    def test_a_case_can_be_chosen_and_is_marked(self):
+        self.assertIn('<div id="chooser" hidden>', self.text)
+        for mark in ('<tr data-case="2">', 'id="pressure-profile.', 'id="void-fraction.'):
+            self.assertIn(mark, self.text)
+        ids = re.findall(r'\bid="([^"]*\.case-\d)"', self.text)
+        self.assertEqual(len(ids), len(set(ids)))
+        self.assertIn("case-1", {name.split(".")[-1] for name in ids})
 
     def test_means_over_time_are_a_table(self):
         start = self.words.index("The moving bed")
@@ -163,7 +199,7 @@ class MissingPieces(ReportTest):
         status, text, errors = make_report(self.directory)
         self.assertEqual(status, 0)
         self.assertNotIn("could not be drawn", errors)
-        self.assertNotIn("None", re.sub(r'src="[^"]*"', "", text))
+        self.assertNotIn("None", without_figures(text))
 
     def test_empty_directory_is_an_error(self):
         status, text, errors = make_report(self.directory)
@@ -206,7 +242,7 @@ class OddRuns(ReportTest):
         self.edit_summary(change)
         status, text, errors = make_report(self.directory)
         self.assertEqual((status, errors), (0, ""))
-        words = re.sub(r'src="[^"]*"', "", text)
+        words = without_figures(text)
         self.assertNotRegex(words, r"\b(nan|None|inf)\b")
         return words
 
@@ -289,7 +325,7 @@ class Study(ReportTest):
         (self.directory / "study.csv").write_text(self.HEADER + rows, encoding="utf-8")
         status, text, _ = make_report(self.directory)
         self.assertEqual(status, 0)
-        return re.sub(r'src="[^"]*"', "", text)
+        return without_figures(text)
 
     def test_a_failed_level_is_a_hole(self):
         text = self.report_of(
@@ -299,13 +335,13 @@ class Study(ReportTest):
         )
         self.assertIn("<td>failed</td>", text)
         self.assertIn("Failed: level 2 (log.txt says why)", text)
-        self.assertIn("<figure>", text)
+        self.assertIn('<figure id="study-1">', text)
 
     def test_every_level_failed(self):
         text = self.report_of("1,,,5e-3,,,,,,,,,,failed\n2,,,2e-3,,,,,,,,,,failed\n")
         self.assertIn("No level was computed", text)
         self.assertIn("Failed: level 1, 2", text)
-        self.assertNotIn("<figure>", text)
+        self.assertNotIn("<figure", text)
 
 
 class Comparison(ReportTest):
@@ -343,6 +379,9 @@ class Comparison(ReportTest):
         paper = reference.paper_for(run)
         self.assertEqual(paper.names, ["1", "2", "3", "4", "5", "6"])
         self.assertEqual(paper.onset_velocity, 0.548)
+        self.assertIs(reference.chosen_paper(run).scale, 2)
+        run.summary["reference"] = "none"
+        self.assertIsNone(reference.chosen_paper(run))
         run.summary["bed"]["original_diameter"] = 3.2e-3
         self.assertIsNone(reference.paper_for(run))
 
