@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Tests of scripts/report.py; run with Debian's /usr/bin/python3."""
+"""Tests of scripts/report; run with Debian's /usr/bin/python3."""
 
 import base64
 import contextlib
@@ -16,7 +16,9 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "python"))
 
 import numpy as np
+from matplotlib.backends.backend_agg import FigureCanvasAgg
 
+import figure_checks
 from graupel import run as run_output
 from graupel.report import __main__ as report, reference, style
 from graupel.report import figures_inside, figures_run, figures_time, page, words
@@ -311,6 +313,76 @@ class OddRuns(ReportTest):
             run.monitors[name][filled] = 7.0
         with self.assertRaises(style.NotOfThisRun):
             figures_time.particle_number(run, None)
+
+
+class Figures(ReportTest):
+    """No figure covers its data with a legend, or a label with another one."""
+
+    def test_nothing_covers_anything(self):
+        write_run(self.directory)
+        run = run_output.read_run(self.directory)
+        paper = reference.chosen_paper(run)
+        for name, make in report.FIGURES.items():
+            with self.subTest(name):
+                figure = make(run, paper)
+                FigureCanvasAgg(figure).draw()
+                self.assertEqual(figure_checks.faults(figure), [])
+
+    def test_the_check_finds_what_it_looks_for(self):
+        figure = style.new_figure(3.0, 2.0)
+        axes = figure.subplots()
+        axes.plot([0, 1], [0, 1], label="a curve")
+        axes.set_xticks([0.0, 0.01], ["first long label", "second long label"])
+        axes.legend(loc="center")
+        FigureCanvasAgg(figure).draw()
+        found = " ".join(figure_checks.faults(figure))
+        self.assertIn("meets", found)
+        self.assertIn("legend covers data", found)
+
+
+class Several(ReportTest):
+    """The page that compares runs."""
+
+    def test_two_runs(self):
+        folders = [self.directory / name for name in ("first", "<second>")]
+        for folder, scale in zip(folders, (1.0, 2.0)):
+            folder.mkdir()
+            write_run(folder, scale)
+            (folder / "parameters.prm").write_text(
+                "subsection Particles\n  set density = 2700\n"
+                f"  set scale = {scale}\nend\nsubsection Flow\n"
+                f"  set time step = {'1e-2' if scale == 1.0 else '0.01'}\nend\n"
+                f"subsection Output\n  set directory = {scale}\nend\n",
+                encoding="utf-8",
+            )
+        path = folders[1] / "summary.json"
+        summary = json.loads(path.read_text(encoding="utf-8"))
+        summary["cases"][0]["pressure_drop"] *= 1.1
+        path.write_text(json.dumps(summary), encoding="utf-8")
+        target = self.directory / "comparison.html"
+        with contextlib.redirect_stdout(io.StringIO()):
+            self.assertEqual(report.write_comparison(folders, target), 0)
+        text = target.read_text(encoding="utf-8")
+        words = without_figures(text)
+        self.assertNotRegex(words, r"\b(nan|None|inf)\b|<second>")
+        self.assertIn("&lt;second&gt;", words)
+        # What differs, but not how the same number is written, nor where results lie.
+        differing = words[words.index("Parameters that differ") : words.index("<h2>Results")]
+        self.assertEqual(re.findall(r'<td class="text">([^<]*)', differing), ["Particles/scale"])
+        self.assertIn("(+10.00 %)", words)
+        self.assertIn("0.271 m/s", words)
+        for name in ("pressure-drop", "pressure-profile", "bed-radial", "pressure-drop-over-time"):
+            self.assertIn(f'<figure id="{name}">', text)
+
+    def test_a_directory_without_a_run_is_named(self):
+        write_run(self.directory)
+        empty = self.directory / "empty"
+        empty.mkdir()
+        errors = io.StringIO()
+        with contextlib.redirect_stderr(errors):
+            status = report.write_comparison([self.directory, empty], self.directory / "c.html")
+        self.assertEqual(status, 1)
+        self.assertIn("empty holds no output of a run", errors.getvalue())
 
 
 class Study(ReportTest):

@@ -54,6 +54,9 @@ def lines(run, paper):
     for row, (name, grid) in zip(rows, grids.items()):
         for axes, (label, curves) in zip(row, LINE_PANELS):
             draw_line(axes, grid, curves)
+            if not axes.lines:
+                axes.text(0.5, 0.5, "nothing there", ha="center", transform=axes.transAxes, color=GREY)
+                axes.set_yticks([])
             axes.set_ylabel(label, fontsize=8)
             axes.tick_params(labelsize=7.5)
             axes.set_xlabel(f"along {name} [mm]", fontsize=8)
