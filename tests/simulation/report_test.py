@@ -255,6 +255,7 @@ class OddRuns(ReportTest):
         (self.directory / "cases.csv").unlink()
         (self.directory / "monitors.csv").unlink()
         (self.directory / "probes.csv").unlink()
+        (self.directory / "wall-forces.csv").unlink()
         text = self.report_of_changed(lambda summary: summary.update(cases=[]))
         self.assertIn('id="bed-janssen"', text)
         for absent in ("Pressure", "Cases", "Over time", "No flow case"):
