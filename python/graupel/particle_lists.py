@@ -82,6 +82,14 @@ def from_columns(columns, path, diameter=None):
     )  # fmt: skip
 
 
+def by_id(columns):
+    """The columns in the order of the ids, if there are any."""
+    if "id" not in columns:
+        return columns
+    order = np.argsort(columns["id"], kind="stable")
+    return {name: values[order] for name, values in columns.items()}
+
+
 def read_csv(path, diameter):
     """Of a CSV file whose first line names the columns; what follows a # is left out."""
     with open(path, newline="", encoding="utf-8") as file:
@@ -127,10 +135,7 @@ def read_dump(path, diameter):
         if f"{name}s" in columns and name not in columns:  # of the box
             low, high = bounds[axis]
             columns[name] = low + columns[f"{name}s"] * (high - low)
-    if "id" in columns:
-        order = np.argsort(columns["id"], kind="stable")
-        columns = {name: values[order] for name, values in columns.items()}
-    return from_columns(columns, path, diameter)
+    return from_columns(by_id(columns), path, diameter)
 
 
 def read_vtk_xml(path, diameter):
@@ -138,15 +143,12 @@ def read_vtk_xml(path, diameter):
     file = read_vtu(path)
     columns = dict(zip("xyz", file.points.T))
     for names, letter in ((VELOCITIES, "v"), (SPINS, "w")):
-        for name in names:
-            if name in file.values:
-                columns.update({letter + axis: file.values[name][:, k] for k, axis in enumerate("xyz")})
-                break
-    columns.update({name: file.values[name] for name in ("diameter", "radius", "type") if name in file.values})
-    if "id" in file.values:
-        order = np.argsort(file.values["id"], kind="stable")
-        columns = {name: values[order] for name, values in columns.items()}
-    return from_columns(columns, path, diameter)
+        found = next((file.values[name] for name in names if name in file.values), None)
+        if found is not None:
+            columns.update({letter + axis: found[:, k] for k, axis in enumerate("xyz")})
+    scalars = ("id", "diameter", "radius", "type")
+    columns.update({name: file.values[name] for name in scalars if name in file.values})
+    return from_columns(by_id(columns), path, diameter)
 
 
 def read_particles(path, diameter=None):

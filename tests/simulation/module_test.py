@@ -127,7 +127,8 @@ class Vtu(FolderTest):
         text = piece(0, "0 1", "2") + piece(1, "1 0", "2")
         path = self.write(
             "b.vtu",
-            f'<VTKFile type="UnstructuredGrid"><UnstructuredGrid>{text}</UnstructuredGrid></VTKFile>',
+            f'<VTKFile type="UnstructuredGrid"><UnstructuredGrid>{text}</UnstructuredGrid>'
+            "</VTKFile>",
         )
         read = graupel.read_vtu(path)
         np.testing.assert_array_equal(read.connectivity, [0, 1, 3, 2])
@@ -242,6 +243,12 @@ class Columns(FolderTest):
             # "contacts", "particles" and the like have one unit wherever they are.
             self.assertEqual(graupel.UNITS.get(name), unit, name)
 
+    def test_version_is_that_of_the_program(self):
+        project = (ROOT / "CMakeLists.txt").read_text(encoding="utf-8")
+        version = re.search(r"project\(graupel VERSION (\S+)", project).group(1)
+        package = (ROOT / "python" / "pyproject.toml").read_text(encoding="utf-8")
+        self.assertIn(f'version = "{version}"', package)
+
     def test_parameters_by_path(self):
         path = self.write(
             "parameters.prm",
@@ -249,8 +256,8 @@ class Columns(FolderTest):
             "subsection Particles\n  subsection Type 2\n    set scale = 3\n  end\n"
             "  set density = \nend\n",
         )
-        expected = {"Flow/time step": "1e-2", "Particles/Type 2/scale": "3", "Particles/density": ""}
-        self.assertEqual(read_parameters(path), expected)
+        expected = {"Flow/time step": "1e-2", "Particles/Type 2/scale": "3"}
+        self.assertEqual(read_parameters(path), {**expected, "Particles/density": ""})
 
 
 if __name__ == "__main__":

@@ -1,1 +1,1 @@
-"""The parts of report.py: reading a run's output, figures, words and the page."""
+"""Report of a run, and comparison of several: figures, words, tables and the page."""

@@ -218,7 +218,8 @@ FIGURES = {
     "void-fraction-profile": (
         "Void fraction along the axis, of the last case of each run.",
         lambda runs: curves(
-            runs, last_profile("void_fraction"), "height over the bottom z [mm]", "void fraction [-]"
+            runs, last_profile("void_fraction"), "height over the bottom z [mm]",
+            "void fraction [-]",
         ),
     ),
     "bed-radial": (

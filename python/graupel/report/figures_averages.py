@@ -55,7 +55,8 @@ def lines(run, paper):
         for axes, (label, curves) in zip(row, LINE_PANELS):
             draw_line(axes, grid, curves)
             if not axes.lines:
-                axes.text(0.5, 0.5, "nothing there", ha="center", transform=axes.transAxes, color=GREY)
+                middle = {"ha": "center", "transform": axes.transAxes, "color": GREY}
+                axes.text(0.5, 0.5, "nothing there", **middle)
                 axes.set_yticks([])
             axes.set_ylabel(label, fontsize=8)
             axes.tick_params(labelsize=7.5)

@@ -35,8 +35,9 @@ def pressure_profile(run, paper):
         label, mark = label_of(run, number), {"gid": of_case(number)}
         ergun = f"_Ergun, {label}"
         upper.plot(z, table["pressure"], color=colour, label=label, **mark)
-        upper.plot(z, table["ergun_pressure"], "--", color=colour, linewidth=1.0, label=ergun, **mark)
-        lower.plot(z, table["void_fraction"], color=colour, linewidth=1.1, label=f"_{label}", **mark)
+        thin = {"color": colour, "linewidth": 1.0, **mark}
+        upper.plot(z, table["ergun_pressure"], "--", label=ergun, **thin)
+        lower.plot(z, table["void_fraction"], label=f"_{label}", **thin)
     upper.plot([], [], "--", color=GREY, linewidth=1.0, label="Ergun")
     height = run.number("bed", "height")
     if height is not None:
@@ -76,7 +77,8 @@ def pressure_drop(run, paper):
     weight = reference.weight_per_area(run)
     if weight is not None:
         axes.axhline(weight, color=PURPLE, linestyle="--", linewidth=1.1)
-        axes.plot([], [], "--", color=PURPLE, linewidth=1.1, label="weight of the bed\nover the section")
+        label = "weight of the bed\nover the section"
+        axes.plot([], [], "--", color=PURPLE, linewidth=1.1, label=label)
     velocity_axis(axes)
     axes.set_xlim(0.0, 1.06 * last)
     axes.set_ylabel("pressure drop [Pa]")

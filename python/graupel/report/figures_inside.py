@@ -5,8 +5,8 @@ from matplotlib.colors import Normalize
 from matplotlib.ticker import MaxNLocator
 
 from ..run import grid_of
-from .style import BLACK, GREY, MILLI, NothingToShow, NotOfThisRun, colour_of_each, known, new_figure
-from .style import legend_beside, of_case, of_cases
+from .style import BLACK, GREY, MILLI, NothingToShow, NotOfThisRun, colour_of_each, known
+from .style import legend_beside, new_figure, of_case, of_cases
 
 from .figures_bed import label_of
 from .hover import plain

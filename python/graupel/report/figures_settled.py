@@ -2,10 +2,10 @@
 
 import numpy as np
 
-from .style import BLACK, BLUE, GREY, MILLI, ORANGE, VERMILLION, NothingToShow, NotOfThisRun
 from ..run import OF_CYLINDERS
 from . import reference
-from .style import known, legend_beside, new_figure
+from .style import BLACK, BLUE, GREY, MILLI, ORANGE, VERMILLION, NothingToShow, NotOfThisRun
+from .style import legend_beside, new_figure
 
 
 def table_of(run, name):

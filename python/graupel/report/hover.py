@@ -13,7 +13,7 @@ NO_VALUE = 255  # of an image
 
 def plain(text):
     """A label without the marks of mathematics, in one line."""
-    return re.sub(r"[$\\\\{}]", "", text or "").replace("\n", " ")
+    return re.sub(r"[$\\{}]", "", text or "").replace("\n", " ")
 
 
 def label_of_axis(axes, direction):

@@ -166,8 +166,8 @@ def chooser(run):
         return []
     buttons = ['<button value="">all</button>']
     buttons += [
-        f'<button value="{case["number"]}" title="{words.velocity_of(case)}">{case["number"]}</button>'
-        for case in run.cases
+        f'<button value="{number}" title="{words.velocity_of(case)}">{number}</button>'
+        for number, case in ((case["number"], case) for case in run.cases)
     ]
     return [f'<div id="chooser" hidden>Flow case: {"".join(buttons)}</div>']
 

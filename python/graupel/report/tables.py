@@ -24,7 +24,8 @@ def table(groups, heads, rows, cases=()):
     lines += [f"<tr>{cells}</tr>", "</thead>", "<tbody>"]
     for row, case in zip(rows, cases or [None] * len(rows)):
         mark = "" if case is None else f' data-case="{case}"'
-        lines.append(f"<tr{mark}>" + "".join(f"<td>{escape(str(cell))}</td>" for cell in row) + "</tr>")
+        cells = "".join(f"<td>{escape(str(cell))}</td>" for cell in row)
+        lines.append(f"<tr{mark}>{cells}</tr>")
     lines += ["</tbody>", "</table></div>"]
     return "\n".join(lines)
 
