@@ -139,6 +139,9 @@ class Lists(RunTest):
         # Without gravity and flow they stay where they are.
         values = {
             "Particles/gravity": 0,
+            "Particles/scale": 1,
+            "Particles/size distribution": "list",
+            "Particles/size list": "1.8e-3: 1, 2e-3: 1, 2.2e-3: 1",
             "Filling/method": "list",
             "Filling/count": 0,
             "Filling/file": table,
