@@ -13,9 +13,9 @@ import sys
 from pathlib import Path
 
 try:
-    from common.reference import paper_for
     from common.runs import Runs
-    from common.style import ORANGE, VERMILLION, render
+    from graupel.report.reference import paper_for
+    from graupel.report.style import ORANGE, VERMILLION, render
     from paper_parts import figures, page
 except ImportError as error:
     sys.exit(f"paper.py: {error}. It needs Debian's python3-matplotlib.")

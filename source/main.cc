@@ -296,10 +296,9 @@ main(int argc, char **argv)
       }
   }
   // After MPI has ended: a child process started under MPI is unsafe.
-  if (first && report)
-    make_report(directory);
+  const bool is_reported = first && report && make_report(directory);
   if (first)
-    std::cout << "Results are in " << directory << (report ? " (open report.html)" : "")
-              << std::endl;
+    std::cout << "Results are in " << directory
+              << (is_reported ? " (open report.html)" : "") << std::endl;
   return exit_status(outcome);
 }

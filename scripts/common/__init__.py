@@ -1,2 +1,6 @@
-"""What report.py and paper.py share: readers of a run's files, the paper's values, and how
-the figures look."""
+"""What the scripts share beside the module graupel, which lies in python/."""
+
+import sys
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "python"))

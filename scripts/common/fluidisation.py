@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from . import reference
+from graupel.report import reference
 
 # Fixed-bed cases: the fluid carries less than this part of the weight. Beyond, the bed
 # has begun to loosen.

@@ -1,6 +1,6 @@
 """Words and tables of the pages in doc/."""
 
-from .style import PERCENT
+from graupel.report.style import PERCENT
 
 
 def percent(value, digits=1):

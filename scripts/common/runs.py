@@ -3,8 +3,8 @@
 import math
 from pathlib import Path
 
-from .run_output import read_run
-from .study_table import read_study
+from graupel.run import read_run
+from graupel.study import read_study
 
 
 class Runs:

@@ -4,13 +4,12 @@ import numpy as np
 from matplotlib.collections import EllipseCollection
 from matplotlib.patches import Rectangle
 
-from common import reference
+from graupel.report import reference
 from common.fluidisation import fixed_cases, supported_drop
-from common.particles import positions
-from common.style import BLACK, BLUE, GREEN, GREY, ORANGE, PURPLE, VERMILLION
-from common.style import MILLI, PERCENT, column, new_figure, plot_cases, velocity_axis
-from common.style import diamonds, note, shade_papers_band
-from report_parts import figures_inside
+from graupel.report.style import BLACK, BLUE, GREEN, GREY, ORANGE, PURPLE, VERMILLION
+from graupel.report.style import MILLI, PERCENT, column, new_figure, plot_cases, velocity_axis
+from graupel.report.style import diamonds, note, shade_papers_band
+from graupel.report import figures_inside
 
 from .runs import over
 
@@ -21,7 +20,7 @@ DISCS = ((1.0, 0.0, 0.45), (0.8, 0.06, 0.75), (0.5, 0.13, 1.0))
 
 def draw_bed(axes, run):
     """The spheres seen from the side, those behind drawn first, and the vessel."""
-    points = positions(run.directory) * MILLI
+    points = run.particles(0).points * MILLI
     diameter = run.number("bed", "particle_diameter") * MILLI
     vessel = run.number("bed", "vessel_diameter") * MILLI
     height = run.number("bed", "vessel_height") * MILLI

@@ -4,9 +4,9 @@ import csv
 
 from common.fluidisation import ergun_onset, fixed_cases, onset, plateau, supported_drop
 from common.markdown import image, percent, span, table, verdict
-from common.reference import PAPER_VESSEL, ergun_curve, paper_for
+from graupel.report.reference import PAPER_VESSEL, ergun_curve, paper_for
 from common.runs import case_at
-from common.style import MILLI
+from graupel.report.style import MILLI
 
 from .runs import drop_at, over, rise
 

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from common import reference
+from graupel.report import reference
 from common.fluidisation import fixed_cases, later_rows
 
 

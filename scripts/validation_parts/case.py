@@ -18,7 +18,7 @@ import importlib.util
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from common.run_output import as_number
+from graupel.run import as_number
 
 ROOT = Path(__file__).resolve().parents[2]
 FOLDER = ROOT / "prm" / "validation"

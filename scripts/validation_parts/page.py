@@ -7,8 +7,8 @@ when one of them is run alone, or some of its runs. All of them take most of a d
 import csv
 
 from common.markdown import image, table, verdict
-from common.run_output import as_flag, as_number
-from common.style import PERCENT, render
+from graupel.run import as_flag, as_number
+from graupel.report.style import PERCENT, render
 
 from .case import load, names
 

@@ -1,6 +1,8 @@
+#include <graupel/base/files.h>
 #include <graupel/simulation/report.h>
 
 #include <cstdlib>
+#include <filesystem>
 #include <iostream>
 
 namespace graupel
@@ -15,21 +17,46 @@ namespace graupel
         quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
       return quoted + "'";
     }
+
+    // Says it where the user looks, now or later.
+    void
+    tell(const std::string &directory, const std::string &message)
+    {
+      std::cerr << message << std::endl;
+      append_to_file(directory + "/log.txt", message + "\n");
+    }
   } // namespace
+
+  bool
+  make_report(const std::string &directory, const std::string &script)
+  {
+    // Debian's own Python: it has Debian's matplotlib, whatever else is on the PATH.
+    const std::string python = "/usr/bin/python3";
+    const std::string command =
+      python + " " + shell_quoted(script) + " " + shell_quoted(directory);
+    std::string reason;
+    for (const std::string &needed : {python, script})
+      if (reason.empty() && !std::filesystem::exists(needed))
+        reason = needed + " is not there";
+    if (reason.empty())
+      {
+        std::cout.flush();
+        if (std::system(command.c_str()) == 0)
+          return true;
+        reason = "its script has failed, as it says above; on Debian it needs "
+                 "apt-get install python3-matplotlib";
+      }
+    tell(directory,
+         "No report was made: " + reason +
+           ".\nThe results are complete. Make the report later with\n  " + command +
+           "\nor scripts/report of another copy of Graupel; Output/report = false goes "
+           "without.");
+    return false;
+  }
 
   bool
   make_report(const std::string &directory)
   {
-    // Debian's own Python: it has Debian's matplotlib, whatever else is on the PATH.
-    const std::string command = "/usr/bin/python3 " +
-                                shell_quoted(GRAUPEL_REPORT_SCRIPT) + " " +
-                                shell_quoted(directory);
-    if (std::system(command.c_str()) == 0)
-      return true;
-    std::cerr
-      << "The report could not be made (is python3-matplotlib installed?). The results "
-         "are complete; make it later with\n  "
-      << command << std::endl;
-    return false;
+    return make_report(directory, GRAUPEL_REPORT_SCRIPT);
   }
 } // namespace graupel

@@ -58,6 +58,7 @@ namespace graupel
     , started(Progress::steady_seconds())
   {
     summary.parameter_file = parameter_file;
+    summary.reference      = parameters.output.reference;
     summary.fluid          = parameters.fluid;
     if (!parameters.filling.start_from.empty())
       given_bed =

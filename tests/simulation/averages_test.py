@@ -8,7 +8,6 @@ import shutil
 import numpy as np
 from runs import ROOT, RunTest, main
 
-from common.particles import positions
 
 CASES = ROOT / "tests" / "cases"
 GRAVITY = 9.81
@@ -156,7 +155,7 @@ class Averages(RunTest):
             " 3 4 0.02",
         }
         run = self.finished("bed20.prm", values)
-        centers = positions(run.directory, 1)
+        centers = run.particles(1).points
         self.assertEqual(len(centers), 100)
         for k, row in enumerate(run.rows("averages-lines-01.csv")):
             lower = np.array([(k - n / 2) * width, -0.002, 0.0015])

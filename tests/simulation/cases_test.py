@@ -12,9 +12,8 @@ import subprocess
 
 from runs import ROOT, RunTest, call, main
 
-from common.particles import positions
 from common.program import FAULT
-from common.reference import ergun_pressure_drop
+from graupel.report.reference import ergun_pressure_drop
 
 CASES = ROOT / "tests" / "cases"
 # A tenth of a sphere's diameter [m]: what two packings of the same bed may differ by.
@@ -335,7 +334,7 @@ class Sizes(CaseTest):
         for ranks in (1, 3):
             run = self.run_case("list9", ranks=ranks)
             if run.status == 0:
-                found.append(sorted(map(tuple, positions(run.directory))))
+                found.append(sorted(map(tuple, run.particles(0).points)))
             else:
                 self.assertIn("two.csv, line 2", run.refusal)
                 self.assertIn("type", run.refusal)
@@ -345,7 +344,7 @@ class Sizes(CaseTest):
     def test_a_sphere_of_a_tenth(self):
         run = self.run_case("small", timeout=60)
         if run.status == 0:
-            center = positions(run.directory)[0]
+            center = run.particles(0).points[0]
             # At rest on the bottom, which it touches at its radius.
             self.assert_within(center[2], 1e-4, 1e-6, "height of its center")
         else:
@@ -375,7 +374,7 @@ class Filling(CaseTest):
         self.assertTrue(run.status == 0 or "Walls/bottom" in run.refusal, run)
 
     def test_none_inside_a_closed_box(self):
-        centers = positions(self.finished("box").directory)
+        centers = self.finished("box").particles(0).points
         self.assertEqual(len(centers), 60)
         # box.stl: a prism with a slanting side, in metres.
         inside = [

@@ -6,7 +6,6 @@ import math
 
 from runs import ROOT, RunTest, main
 
-from common.particles import positions
 
 EXAMPLES = ROOT / "prm"
 GRAVITY = 9.81
@@ -212,7 +211,7 @@ class MovingWalls(ExampleTest):
 
     def test_a_drum_that_turns(self):
         run = self.finished("walls/drum.prm")
-        centers = positions(run.directory, 1)
+        centers = run.particles(1).points
         x, y = centers[:, 0].mean(), centers[:, 1].mean()
         # Downwards is -x; the wall moves towards -y there, and takes the bed along. With a
         # friction of 0.5 spheres stand at 20 to 40 degrees when they flow.

@@ -9,7 +9,6 @@ import shutil
 
 from runs import ROOT, RunTest, main
 
-from common.particles import fluid_forces
 
 EXAMPLES = ROOT / "prm"
 CASES = ROOT / "tests" / "cases"
@@ -111,9 +110,7 @@ class Forces(RunTest):
     def force(self, values):
         """Of the fluid on the sphere at rest, three components [N]."""
         run = self.run_sphere(values)
-        last = max(int(file.name.split("_")[1].split(".")[0])
-                   for file in (run.directory / "vtu").glob("particles_*.vtu"))  # fmt: skip
-        return fluid_forces(run.directory, last)[0]
+        return run.particles(-1).values["fluid_force"][0]
 
     def test_friction_balances_pressure(self):
         push = self.VOLUME * self.GRADIENT

@@ -1,15 +1,11 @@
 #!/usr/bin/python3
-"""Tests what scripts/paper.py makes of runs: onset, plateau, and the particles it draws."""
+"""Tests what scripts/paper.py makes of runs: onset and plateau."""
 
-import base64
 import math
 import pathlib
-import struct
 import subprocess
 import sys
-import tempfile
 import unittest
-import zlib
 
 sys.dont_write_bytecode = True
 SCRIPTS = pathlib.Path(__file__).resolve().parents[2] / "scripts"
@@ -17,8 +13,8 @@ sys.path.insert(0, str(SCRIPTS))
 
 import numpy as np
 
-from common import fluidisation, particles
-from common.run_output import RunOutput
+from common import fluidisation
+from graupel.run import Run
 
 AREA = math.pi * 0.025**2 / 4.0
 A, B, WEIGHT = 700.0, 1700.0, 0.48
@@ -31,7 +27,7 @@ def fixed_bed(velocity):
 
 def a_run(velocities, buoyancy=0.0):
     """A run whose bed drops a V + b V^2 until the fluid carries it."""
-    run = RunOutput(pathlib.Path("nowhere"))
+    run = Run(pathlib.Path("nowhere"))
     solid = buoyancy / (fluidisation.GRAVITY * 1.2)
     run.summary = {
         "bed": {"vessel_diameter": 0.025, "solid_volume": solid},
@@ -86,39 +82,11 @@ class Onset(unittest.TestCase):
         self.assertIsNone(fluidisation.plateau(a_run((0.2, 0.3))))
 
 
-class Particles(unittest.TestCase):
-    """The ParaView files of two ranks."""
-
-    @staticmethod
-    def encoded(values):
-        raw = np.asarray(values, "<f4").tobytes()
-        block = zlib.compress(raw)
-        header = struct.pack("<4I", 1, len(raw), len(raw), len(block))
-        return base64.b64encode(header).decode() + base64.b64encode(block).decode()
-
-    def test_all_pieces_are_read(self):
-        first = [[0.0, 1.0, 2.0], [3.0, 4.0, 5.0]]
-        second = [[6.0, 7.0, 8.0]]
-        pieces = "".join(
-            '<Piece><Points><DataArray type="Float32" NumberOfComponents="3">'
-            f"\n{self.encoded(points)}\n</DataArray></Points></Piece>"
-            for points in (first, second)
-        )
-        with tempfile.TemporaryDirectory() as folder:
-            (pathlib.Path(folder) / "vtu").mkdir()
-            (pathlib.Path(folder) / "vtu" / "particles_0000.vtu").write_text(
-                f'<?xml version="1.0" ?>\n<!-- made -->\n<VTKFile>{pieces}</VTKFile>',
-                encoding="ascii",
-            )
-            read = particles.positions(pathlib.Path(folder))
-        np.testing.assert_array_equal(read, first + second)
-
-
 class Scripts(unittest.TestCase):
     """The programs themselves, which the other tests import from."""
 
     def test_each_tells_how_it_is_called(self):
-        for name in ("paper.py", "report.py", "validate"):
+        for name in ("paper.py", "particles", "report", "validate"):
             done = subprocess.run(
                 [sys.executable, SCRIPTS / name, "--help"], capture_output=True, text=True
             )

@@ -6,8 +6,8 @@ import math
 
 import numpy as np
 
-from common import reference, run_output
-from report_parts import figures_run
+from graupel import columns
+from graupel.report import figures_run, reference
 
 VESSEL = 25e-3
 AREA = math.pi * VESSEL**2 / 4.0
@@ -67,6 +67,7 @@ def summary_of(cases, scale=1.0, vessel=VESSEL, original=1.6e-3):
             "vessel_height": 0.169,
             "original_diameter": original,
         },
+        "reference": reference.PAPER if original == 1.6e-3 and vessel == VESSEL else "none",
         "fluid": {"density": DENSITY, "viscosity": VISCOSITY},
         "cases": cases,
         "ledger": {
@@ -98,15 +99,13 @@ FURTHER_MONITORS = (
     "particles",
     "departed_particles",
     "fed_particles",
-    "force_bottom",
-    "force_left door",
 )
 
 
 def what_further_monitors_say(step):
     """Their values; the bed has no bottom in every other row."""
     bottom = "" if step % 2 else 0.0
-    return [0.3, bottom, 0.4, 20997 - step, step, 0, 0.1, 0.05]
+    return [0.3, bottom, 0.4, 20997 - step, step, 0]
 
 
 BINNED = ("velocity_z", "velocity_rms_z", "solid_flux_x", "solid_flux_z", "flux_z")
@@ -146,7 +145,7 @@ def write_averages(directory, number):
     write_csv(directory / f"averages-planes-{number:02d}.csv", header, rows)
     points = [(x, z) for x in np.linspace(-0.0125, 0.0125, 11) for z in np.linspace(0, 0.169, 60)]
     rows = [[x, z, 0.4 if z < HEIGHT else 1.0, 0.5, 100.0] for x, z in points]
-    header = list(run_output.MIDPLANE_COLUMNS)
+    header = list(columns.MIDPLANE_COLUMNS)
     write_csv(directory / f"averages-midplane-{number:02d}.csv", header, rows)
     rows = [[time, number, x, z, 0.4 + 10 * time] for time in (0.05, 0.055) for x, z in points]
     write_csv(directory / "snapshots.csv", ["time", "case", "x", "z", "void_fraction"], rows)
@@ -158,7 +157,7 @@ def write_run(directory, scale=1.0, vessel=VESSEL, steps=60):
     summary = summary_of(cases, scale, vessel)
     (directory / "summary.json").write_text(json.dumps(summary), encoding="utf-8")
     rows = [
-        [str(case[key]).lower() if key in run_output.CASE_FLAGS else case[key] for key in case]
+        [str(case[key]).lower() if key in columns.CASE_FLAGS else case[key] for key in case]
         for case in cases
     ]
     write_csv(directory / "cases.csv", list(cases[0]), rows)
@@ -169,7 +168,10 @@ def write_run(directory, scale=1.0, vessel=VESSEL, steps=60):
         [step * 1e-3, *phases[4 * step // steps], *numbers, *what_further_monitors_say(step)]
         for step in range(steps)
     ]
-    write_csv(directory / "monitors.csv", run_output.MONITOR_COLUMNS + FURTHER_MONITORS, rows)
+    write_csv(directory / "monitors.csv", columns.MONITOR_COLUMNS + FURTHER_MONITORS, rows)
+    walls = ("time", "particles_on_bottom_z", "particles_on_wall_z", "fluid_on_bottom_z")
+    rows = [[step * 1e-3, -0.2 - step * 1e-3, 0.0, -0.1 if step else ""] for step in range(steps)]
+    write_csv(directory / "wall-forces.csv", walls, rows)
     probed = ("time", "inlet_pressure", "far_side_pressure", "inlet_velocity_z")
     rows = [[step * 1e-3, 400.0 - step, 10.0, 0.3 if step else ""] for step in range(steps)]
     write_csv(directory / "probes.csv", probed, rows)
@@ -180,20 +182,20 @@ def write_run(directory, scale=1.0, vessel=VESSEL, steps=60):
             [height, case["pressure_drop"] * part, 0.39 if part > 0.0 else 1.0, 0.3, 400.0 * part]
             for height, part in zip(z, fall)
         ]
-        write_csv(directory / f"profiles-{number:02d}.csv", run_output.PROFILE_COLUMNS, rows)
+        write_csv(directory / f"profiles-{number:02d}.csv", columns.PROFILE_COLUMNS, rows)
         rows = [[distance, 0.4, 0.3] for distance in np.linspace(0.0, 0.0125, 20)]
-        write_csv(directory / f"radial-{number:02d}.csv", run_output.RADIAL_COLUMNS, rows)
+        write_csv(directory / f"radial-{number:02d}.csv", columns.RADIAL_COLUMNS, rows)
     rows = [[distance, 0.4, 0.41] for distance in np.linspace(0.0, 0.0125, 50)]
-    write_csv(directory / "bed-radial.csv", run_output.BED_COLUMNS["bed-radial"], rows)
+    write_csv(directory / "bed-radial.csv", columns.BED_COLUMNS["bed-radial"], rows)
     rows = [
         [height, 0.48 - 3.0 * height, 0.3 - 2.0 * height, 0.18 - height, 600.0, 590.0, 0.1]
         for height in np.linspace(0.0, 0.15, 20)
     ]
-    write_csv(directory / "bed-janssen.csv", run_output.BED_COLUMNS["bed-janssen"], rows)
+    write_csv(directory / "bed-janssen.csv", columns.BED_COLUMNS["bed-janssen"], rows)
     rows = [
         [x, height, 0.4 if height < HEIGHT else 1.0, 0.5, 100.0]
         for x in np.linspace(-0.0125, 0.0125, 11)
         for height in np.linspace(0.0, 0.169, 60)
     ]
-    write_csv(directory / "midplane-02.csv", run_output.MIDPLANE_COLUMNS, rows)
+    write_csv(directory / "midplane-02.csv", columns.MIDPLANE_COLUMNS, rows)
     write_averages(directory, 2)

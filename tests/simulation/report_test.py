@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Tests of scripts/report.py; run with Debian's /usr/bin/python3."""
+"""Tests of scripts/report; run with Debian's /usr/bin/python3."""
 
 import base64
 import contextlib
@@ -13,13 +13,15 @@ import time
 import unittest
 from pathlib import Path
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "scripts"))
+sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "python"))
 
 import numpy as np
+from matplotlib.backends.backend_agg import FigureCanvasAgg
 
-import report
-from common import reference, run_output, style
-from report_parts import figures_inside, figures_run, figures_time, page, words
+import figure_checks
+from graupel import run as run_output
+from graupel.report import __main__ as report, reference, style
+from graupel.report import figures_inside, figures_run, figures_time, page, words
 from report_fixture import DENSITY, VESSEL, VISCOSITY, one_case, summary_of, write_run
 
 
@@ -31,6 +33,12 @@ def make_report(directory):
     target = directory / "report.html"
     text = target.read_text(encoding="utf-8") if target.is_file() else ""
     return status, text, errors.getvalue()
+
+
+def without_figures(text):
+    """The page without images, scripts and the style sheet, non-breaking spaces as others."""
+    rest = re.sub(r"<(svg|script|style)\b.*?</\1>", "", text, flags=re.S)
+    return rest.replace("\u00a0", " ")
 
 
 class ReportTest(unittest.TestCase):
@@ -61,7 +69,7 @@ class WholeReport(unittest.TestCase):
         start = time.monotonic()
         cls.status, cls.text, cls.errors = make_report(cls.directory)
         cls.seconds = time.monotonic() - start
-        cls.words = re.sub(r'src="[^"]*"', "", cls.text).replace("\u00a0", " ")
+        cls.words = without_figures(cls.text)
 
     def test_every_figure_is_inside_and_in_the_folder(self):
         self.assertEqual(self.status, 0)
@@ -76,15 +84,45 @@ class WholeReport(unittest.TestCase):
         self.assertNotRegex(self.words, r"\b(nan|None|inf)\b")
 
     def test_nothing_is_fetched(self):
-        sources = re.findall(r'(?:src|href)\s*=\s*"([^"]*)"', self.text)
-        self.assertEqual(len(sources), len(report.FIGURES))
-        for source in sources:
-            head, encoded = source.split(",", 1)
-            self.assertEqual(head, "data:image/svg+xml;base64")
-            svg = base64.b64decode(encoded).decode("utf-8")
-            for target in re.findall(r'(?:xlink:href|src)\s*=\s*"([^"]*)"', svg):
-                self.assertRegex(target, r"^(#|data:)")
-        self.assertNotRegex(self.words, r"url\(|@import|<script|<link")
+        targets = re.findall(r'\b(?:src|href)\s*=\s*"([^"]*)"', self.text)
+        targets += re.findall(r"url\(([^)]*)\)", self.text)
+        self.assertGreater(len(targets), 100)
+        for target in targets:
+            self.assertRegex(target, r"^(#|data:)")
+        self.assertNotRegex(self.text, r"@import|<link|<script[^>]*src|\bfetch\(|XMLHttpRequest")
+
+    def test_values_under_the_pointer_are_those_of_the_files(self):
+        figure = self.text[self.text.index('<figure id="pressure-profile">') :]
+        shown = json.loads(re.search(r'class="hover">(.*?)</script>', figure).group(1))
+        curve = next(one for one in shown["curves"] if one["label"].startswith("case 2"))
+        self.assertEqual(curve["case"], 2)
+        self.assertEqual(curve["axes"], ["height over the bottom z [mm]", "pressure over outlet [Pa]"])
+        profile = run_output.read_run(self.directory).profiles[2]
+        np.testing.assert_allclose(curve["values"][0::2], profile["z"] * 1e3, rtol=1e-4)
+        np.testing.assert_allclose(curve["values"][1::2], profile["pressure"], rtol=1e-4)
+        # Points in the figure, from left to right, as many as values.
+        self.assertEqual(len(curve["at"]), len(curve["values"]))
+        self.assertTrue(np.all(np.diff(curve["at"][0::2]) > 0))
+
+    def test_image_under_the_pointer(self):
+        figure = self.text[self.text.index('<figure id="void-fraction">') :]
+        shown = json.loads(re.search(r'class="hover">(.*?)</script>', figure).group(1))
+        image = shown["images"][0]
+        steps = np.frombuffer(base64.b64decode(image["steps"]), np.uint8).reshape(image["shape"])
+        low, high = image["range"]
+        values = low + (high - low) * steps / 254.0
+        table = run_output.read_run(self.directory).midplane[2]
+        _, _, expected = run_output.grid_of(table, "void_fraction")
+        # Half a step of 254.
+        np.testing.assert_allclose(values, expected, atol=0.5 * (high - low) / 254.0 + 1e-9)
+
+    def test_a_case_can_be_chosen_and_is_marked(self):
+        self.assertIn('<div id="chooser" hidden>', self.text)
+        for mark in ('<tr data-case="2">', 'id="pressure-profile.', 'id="void-fraction.'):
+            self.assertIn(mark, self.text)
+        ids = re.findall(r'\bid="([^"]*\.case-\d)"', self.text)
+        self.assertEqual(len(ids), len(set(ids)))
+        self.assertIn("case-1", {name.split(".")[-1] for name in ids})
 
     def test_means_over_time_are_a_table(self):
         start = self.words.index("The moving bed")
@@ -163,7 +201,7 @@ class MissingPieces(ReportTest):
         status, text, errors = make_report(self.directory)
         self.assertEqual(status, 0)
         self.assertNotIn("could not be drawn", errors)
-        self.assertNotIn("None", re.sub(r'src="[^"]*"', "", text))
+        self.assertNotIn("None", without_figures(text))
 
     def test_empty_directory_is_an_error(self):
         status, text, errors = make_report(self.directory)
@@ -206,7 +244,7 @@ class OddRuns(ReportTest):
         self.edit_summary(change)
         status, text, errors = make_report(self.directory)
         self.assertEqual((status, errors), (0, ""))
-        words = re.sub(r'src="[^"]*"', "", text)
+        words = without_figures(text)
         self.assertNotRegex(words, r"\b(nan|None|inf)\b")
         return words
 
@@ -217,6 +255,7 @@ class OddRuns(ReportTest):
         (self.directory / "cases.csv").unlink()
         (self.directory / "monitors.csv").unlink()
         (self.directory / "probes.csv").unlink()
+        (self.directory / "wall-forces.csv").unlink()
         text = self.report_of_changed(lambda summary: summary.update(cases=[]))
         self.assertIn('id="bed-janssen"', text)
         for absent in ("Pressure", "Cases", "Over time", "No flow case"):
@@ -277,6 +316,76 @@ class OddRuns(ReportTest):
             figures_time.particle_number(run, None)
 
 
+class Figures(ReportTest):
+    """No figure covers its data with a legend, or a label with another one."""
+
+    def test_nothing_covers_anything(self):
+        write_run(self.directory)
+        run = run_output.read_run(self.directory)
+        paper = reference.chosen_paper(run)
+        for name, make in report.FIGURES.items():
+            with self.subTest(name):
+                figure = make(run, paper)
+                FigureCanvasAgg(figure).draw()
+                self.assertEqual(figure_checks.faults(figure), [])
+
+    def test_the_check_finds_what_it_looks_for(self):
+        figure = style.new_figure(3.0, 2.0)
+        axes = figure.subplots()
+        axes.plot([0, 1], [0, 1], label="a curve")
+        axes.set_xticks([0.0, 0.01], ["first long label", "second long label"])
+        axes.legend(loc="center")
+        FigureCanvasAgg(figure).draw()
+        found = " ".join(figure_checks.faults(figure))
+        self.assertIn("meets", found)
+        self.assertIn("legend covers data", found)
+
+
+class Several(ReportTest):
+    """The page that compares runs."""
+
+    def test_two_runs(self):
+        folders = [self.directory / name for name in ("first", "<second>")]
+        for folder, scale in zip(folders, (1.0, 2.0)):
+            folder.mkdir()
+            write_run(folder, scale)
+            (folder / "parameters.prm").write_text(
+                "subsection Particles\n  set density = 2700\n"
+                f"  set scale = {scale}\nend\nsubsection Flow\n"
+                f"  set time step = {'1e-2' if scale == 1.0 else '0.01'}\nend\n"
+                f"subsection Output\n  set directory = {scale}\nend\n",
+                encoding="utf-8",
+            )
+        path = folders[1] / "summary.json"
+        summary = json.loads(path.read_text(encoding="utf-8"))
+        summary["cases"][0]["pressure_drop"] *= 1.1
+        path.write_text(json.dumps(summary), encoding="utf-8")
+        target = self.directory / "comparison.html"
+        with contextlib.redirect_stdout(io.StringIO()):
+            self.assertEqual(report.write_comparison(folders, target), 0)
+        text = target.read_text(encoding="utf-8")
+        words = without_figures(text)
+        self.assertNotRegex(words, r"\b(nan|None|inf)\b|<second>")
+        self.assertIn("&lt;second&gt;", words)
+        # What differs, but not how the same number is written, nor where results lie.
+        differing = words[words.index("Parameters that differ") : words.index("<h2>Results")]
+        self.assertEqual(re.findall(r'<td class="text">([^<]*)', differing), ["Particles/scale"])
+        self.assertIn("(+10.00 %)", words)
+        self.assertIn("0.271 m/s", words)
+        for name in ("pressure-drop", "pressure-profile", "bed-radial", "pressure-drop-over-time"):
+            self.assertIn(f'<figure id="{name}">', text)
+
+    def test_a_directory_without_a_run_is_named(self):
+        write_run(self.directory)
+        empty = self.directory / "empty"
+        empty.mkdir()
+        errors = io.StringIO()
+        with contextlib.redirect_stderr(errors):
+            status = report.write_comparison([self.directory, empty], self.directory / "c.html")
+        self.assertEqual(status, 1)
+        self.assertIn("empty holds no output of a run", errors.getvalue())
+
+
 class Study(ReportTest):
     """The report of a study, some of whose levels have failed."""
 
@@ -289,7 +398,7 @@ class Study(ReportTest):
         (self.directory / "study.csv").write_text(self.HEADER + rows, encoding="utf-8")
         status, text, _ = make_report(self.directory)
         self.assertEqual(status, 0)
-        return re.sub(r'src="[^"]*"', "", text)
+        return without_figures(text)
 
     def test_a_failed_level_is_a_hole(self):
         text = self.report_of(
@@ -299,13 +408,13 @@ class Study(ReportTest):
         )
         self.assertIn("<td>failed</td>", text)
         self.assertIn("Failed: level 2 (log.txt says why)", text)
-        self.assertIn("<figure>", text)
+        self.assertIn('<figure id="study-1">', text)
 
     def test_every_level_failed(self):
         text = self.report_of("1,,,5e-3,,,,,,,,,,failed\n2,,,2e-3,,,,,,,,,,failed\n")
         self.assertIn("No level was computed", text)
         self.assertIn("Failed: level 1, 2", text)
-        self.assertNotIn("<figure>", text)
+        self.assertNotIn("<figure", text)
 
 
 class Comparison(ReportTest):
@@ -336,13 +445,16 @@ class Comparison(ReportTest):
             (2.0, 0.05, None),
         ):
             with self.subTest(scale=scale, vessel=vessel):
-                run = run_output.RunOutput(self.directory, summary_of([], scale, vessel))
+                run = run_output.Run(self.directory, summary_of([], scale, vessel))
                 paper = reference.paper_for(run)
                 self.assertEqual(paper and paper.scale, expected)
-        run = run_output.RunOutput(self.directory, summary_of([], 2.0))
+        run = run_output.Run(self.directory, summary_of([], 2.0))
         paper = reference.paper_for(run)
         self.assertEqual(paper.names, ["1", "2", "3", "4", "5", "6"])
         self.assertEqual(paper.onset_velocity, 0.548)
+        self.assertIs(reference.chosen_paper(run).scale, 2)
+        run.summary["reference"] = "none"
+        self.assertIsNone(reference.chosen_paper(run))
         run.summary["bed"]["original_diameter"] = 3.2e-3
         self.assertIsNone(reference.paper_for(run))
 
@@ -358,21 +470,21 @@ class Comparison(ReportTest):
         for case, value in zip(cases, (-0.01, 0.03, -0.02, -0.12)):
             case["deviation_from_ergun"] = value
         cases[3]["fluidized"] = True
-        text = words.the_flow(run_output.RunOutput(self.directory, {}, cases))
+        text = words.the_flow(run_output.Run(self.directory, cases=cases))
         self.assertIn("by at most +3.0\u00a0%,", text)
 
     def test_what_is_left_in_numbers(self):
         cases = [dict(one_case(0.3, False), number=number) for number in (1, 2)]
         cases[1].update(gradient_deviation_from_ergun=-0.025, deviation_from_ergun=-0.035)
         lifted = dict(one_case(0.5, True), number=3, gradient_deviation_from_ergun=-0.2)
-        run = run_output.RunOutput(self.directory, {}, [*cases, lifted])
+        run = run_output.Run(self.directory, cases=[*cases, lifted])
         text = words.what_is_left(run)
         self.assertIn("predicts −1.8\u00a0% in", text)
         self.assertIn("deviates by −2.5\u00a0% to −2.1\u00a0%, which leaves −0.7 to −0.3", text)
         self.assertIn("further −1.0 to −0.9 points", text)
 
     def test_weight_over_area(self):
-        run = run_output.RunOutput(self.directory, summary_of([]), [one_case(0.3, False)])
+        run = run_output.Run(self.directory, summary_of([]), cases=[one_case(0.3, False)])
         # 0.48 N over 4.9087e-4 m^2.
         self.assertAlmostEqual(reference.weight_per_area(run), 977.85, delta=0.01)
 
@@ -430,7 +542,7 @@ class Reading(ReportTest):
         self.assertIsNone(run_output.as_flag(""))
 
     def test_title_without_parameter_file_is_the_directory(self):
-        run = run_output.RunOutput(self.directory)
+        run = run_output.Run(self.directory)
         self.assertEqual(page.title_of(run), f"Graupel: {self.directory.resolve().name}")
 
 

@@ -14,6 +14,7 @@ sys.dont_write_bytecode = True
 sys.path.insert(0, str(ROOT / "scripts"))
 
 from common.program import environment  # noqa: E402
+from graupel import Run as Output  # noqa: E402
 
 
 class Program:
@@ -72,6 +73,10 @@ class Run:
     def rows(self, name):
         """The rows of one of its tables."""
         return rows_of(self.directory / name)
+
+    def particles(self, number):
+        """What the set @p number of its files of particles holds."""
+        return Output(self.directory).particles(number)
 
     @property
     def summary(self):

@@ -13,8 +13,8 @@ from runs import ROOT, Program, RunTest, call, main
 import numpy as np
 
 from common.force_balance import Suspension, dallavalle, ergun, rong, wen_yu
-from common.reference import ergun_pressure_drop
-from common.run_output import RunOutput
+from graupel.report.reference import ergun_pressure_drop
+from graupel.run import Run
 from common.statistics import crossings_with_error, mean_with_error, rms_with_error
 from validation_parts import page
 from validation_parts.case import Comparison, load, names
@@ -118,7 +118,7 @@ class Evaluations(RunTest):
             file.write("name,x,solid_fraction,velocity_z\nelsewhere,0.0,0.9,\n")
             for x in np.linspace(0.0, 0.044, 12):
                 file.write(f"void-16,{x - 0.022},{0.4 + x / 0.44},\n")
-        run = RunOutput(self.path)
+        run = Run(self.path)
         off = mueller.difference(run, 0.6, "void-16", 0.0164, "void_fraction")
         self.assertAlmostEqual(off, expected, places=9)
 
@@ -133,7 +133,7 @@ class Evaluations(RunTest):
         case = load("richardson-zaki")
         diameter, void, count = 0.04, 0.6, 500
         area = math.pi / 4.0 * diameter**2
-        run = RunOutput(self.path, summary={"bed": {"solid_volume": 0.4 * area * 0.1}})
+        run = Run(self.path, summary={"bed": {"solid_volume": 0.4 * area * 0.1}})
         run.monitors = {
             "case": np.ones(count),
             "phase": np.full(count, "flow"),

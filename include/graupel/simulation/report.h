@@ -6,11 +6,14 @@
 namespace graupel
 {
   /**
-   * Makes report.html from the files of an output directory with the script
-   * scripts/report.py. Returns true on success; a failure, such as a missing
-   * matplotlib, is told on standard error and loses nothing. To be called by one
-   * process, outside of MPI.
+   * Makes report.html from the files of an output directory with the Python @p script.
+   * Returns whether it is there now. A failure, such as a missing matplotlib, loses
+   * nothing; it is told with the way out on standard error and in log.txt. To be called
+   * by one process, outside of MPI.
    */
+  bool make_report(const std::string &directory, const std::string &script);
+
+  /** The same with scripts/report of the tree that the program was built from. */
   bool make_report(const std::string &directory);
 } // namespace graupel
 

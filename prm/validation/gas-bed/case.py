@@ -9,7 +9,7 @@ from common.statistics import (
     mean_with_error,
     rms_with_error,
 )
-from common.style import BLUE, GREY, new_figure
+from graupel.report.style import BLUE, GREY, new_figure
 from validation_parts.case import Comparison, Run
 
 TITLE = "The paper's column at 1.5 and 2 times the onset of fluidisation"

@@ -1,13 +1,11 @@
 """A suspension that settles in a closed vessel."""
 
 import math
-import re
 
 import numpy as np
 
 from common.force_balance import Suspension, wen_yu
-from common.particles import positions
-from common.style import BLUE, GREY, new_figure
+from graupel.report.style import BLUE, GREY, new_figure
 from validation_parts.case import Comparison, Run
 
 TITLE = "Hindered settling of glass spheres of 1 mm in a closed vessel of water"
@@ -31,9 +29,8 @@ def runs(quick):
 
 def front(run):
     """Time since the flow began [s] and height of the front [m] of each set of particles."""
-    text = (run.directory / "particles.pvd").read_text(encoding="utf-8")
-    times = sorted({float(t) for t in re.findall(r'timestep="([^"]+)"', text)})
-    heights = [np.quantile(positions(run.directory, n)[:, 2], BELOW) for n in range(len(times))]
+    times = [time for time, _ in run.records("particles")]
+    heights = [np.quantile(run.particles(n).points[:, 2], BELOW) for n in range(len(times))]
     return np.array(times) - times[0], np.array(heights)
 
 

@@ -4,7 +4,7 @@ import csv
 
 import numpy as np
 
-from common.style import BLUE, GREEN, GREY, VERMILLION, new_figure
+from graupel.report.style import BLUE, GREEN, GREY, VERMILLION, new_figure
 from validation_parts.case import FOLDER, Comparison, Run, measured
 
 TITLE = "Bubbling bed of 44 mm x 10 mm at 0.6 and 0.9 m/s: void fraction and particle velocity"

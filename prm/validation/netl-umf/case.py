@@ -2,7 +2,7 @@
 
 from common.fluidisation import ergun_onset, onset
 from common.force_balance import Suspension, ergun
-from common.style import BLUE, GREY, VERMILLION, new_figure
+from graupel.report.style import BLUE, GREY, VERMILLION, new_figure
 from validation_parts.case import Comparison, Run, measured
 
 TITLE = "Onset of polyethylene beads of 0.87 mm, spheres of scale 4, 3, 2 and 1"

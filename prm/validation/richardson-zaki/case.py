@@ -7,7 +7,7 @@ import numpy as np
 from common.fluidisation import later_rows
 from common.force_balance import Suspension, rong
 from common.statistics import at_equal_steps, mean_with_error
-from common.style import BLUE, GREEN, GREY, VERMILLION, new_figure
+from graupel.report.style import BLUE, GREEN, GREY, VERMILLION, new_figure
 from validation_parts.case import Comparison, Run, measured
 
 TITLE = "Steel spheres of 3.175 mm in water: void fraction of the fluidised bed"

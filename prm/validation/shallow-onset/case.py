@@ -2,7 +2,7 @@
 
 from common.fluidisation import ergun_onset, onset
 from common.force_balance import Suspension, ergun
-from common.style import BLUE, GREY, new_figure
+from graupel.report.style import BLUE, GREY, new_figure
 from validation_parts.case import Comparison, Run
 
 TITLE = "Onset of fluidisation in beds of a dozen diameters"

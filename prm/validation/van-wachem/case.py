@@ -4,7 +4,7 @@ import numpy as np
 from matplotlib.mlab import psd
 
 from common.statistics import at_equal_steps, mean_with_error, rms_with_error
-from common.style import BLUE, GREY, new_figure
+from graupel.report.style import BLUE, GREY, new_figure
 from validation_parts.case import Comparison, Run, measured
 
 TITLE = "Slugging bed of 90 mm x 8 mm at 0.9 m/s: height, pressure and its frequency"

@@ -80,6 +80,47 @@ namespace graupel
       dealii::DoFHandler<3>     nodes;
     };
 
+    // The best compression takes five times as long for a hundredth of the bytes.
+    void
+    compress_fast(dealii::DataOut<3> &output)
+    {
+      dealii::DataOutBase::VtkFlags flags;
+      flags.compression_level = decltype(flags.compression_level)::best_speed;
+      output.set_flags(flags);
+    }
+
+    // Flux over void fraction at each node.
+    NodalVectorField
+    interstitial_velocity(const NodalVectorField &flux, const NodalVector &void_fraction)
+    {
+      NodalVectorField velocity = flux;
+      for (NodalVector &component : velocity)
+        {
+          for (unsigned int k = 0; k < component.locally_owned_size(); ++k)
+            component.local_element(k) /= void_fraction.local_element(k);
+          component.update_ghost_values();
+        }
+      return velocity;
+    }
+
+    // Numbers of each cell that tell how the mesh is made and shared.
+    struct CellNumbers
+    {
+      explicit CellNumbers(const dealii::Triangulation<3> &mesh)
+        : subdomain(mesh.n_active_cells())
+        , level(mesh.n_active_cells())
+      {
+        for (const auto &cell : mesh.active_cell_iterators())
+          if (cell->is_locally_owned())
+            {
+              subdomain(cell->active_cell_index()) = cell->subdomain_id();
+              level(cell->active_cell_index())     = cell->level();
+            }
+      }
+
+      dealii::Vector<float> subdomain, level;
+    };
+
     void
     add_vector(dealii::DataOut<3> &output,
                const VectorSpace  &space,
@@ -99,13 +140,9 @@ namespace graupel
   void
   ResultFiles::add_record(const double       time,
                           const std::string &stem,
-                          Output           &&output,
+                          const Output      &output,
                           Records           &records)
   {
-    // The best compression takes five times as long for a hundredth of the bytes.
-    dealii::DataOutBase::VtkFlags flags;
-    flags.compression_level = decltype(flags.compression_level)::best_speed;
-    output.set_flags(flags);
     const std::string name =
       "vtu/" + stem + '_' +
       dealii::Utilities::int_to_string(records.size(), counter_digits) + ".vtu";
@@ -135,8 +172,16 @@ namespace graupel
     output.add_data_vector(flow.pressure(), "pressure");
 
     const VectorSpace space(nodes);
-    const NodalVector flux = as_vector(nodes, flow.flux(), space.nodes);
+    const NodalVector flux     = as_vector(nodes, flow.flux(), space.nodes);
+    const NodalVector velocity = as_vector(
+      nodes, interstitial_velocity(flow.flux(), medium.void_fraction), space.nodes);
     add_vector(output, space, flux, "flux");
+    add_vector(output, space, velocity, "velocity");
+
+    const CellNumbers cells(nodes.dof_handler.get_triangulation());
+    output.add_data_vector(cells.subdomain, "subdomain");
+    output.add_data_vector(cells.level, "refinement_level");
+    compress_fast(output);
     output.build_patches(nodes.mesh.mapping());
     add_record(time, "solution", output, records.fields);
   }
@@ -168,6 +213,7 @@ namespace graupel
     const NodalVector flux_rms  = as_vector(nodes, rms, space.nodes);
     add_vector(output, space, flux_mean, "flux_mean");
     add_vector(output, space, flux_rms, "flux_rms");
+    compress_fast(output);
     output.build_patches(nodes.mesh.mapping());
     add_record(time, "averages", output, records.averages);
   }
@@ -175,12 +221,12 @@ namespace graupel
   void
   ResultFiles::add_particles(const double time, const Dem &dem)
   {
-    add_record(time, "particles", ParticleOutput(dem), records.particles);
+    add_record(time, "particles", particle_output(dem), records.particles);
   }
 
   void
   ResultFiles::add_contacts(const double time, const Dem &dem)
   {
-    add_record(time, "contacts", ContactOutput(dem.contact_states()), records.contacts);
+    add_record(time, "contacts", contact_output(dem.contact_states()), records.contacts);
   }
 } // namespace graupel

@@ -5,23 +5,14 @@ namespace graupel
 {
   namespace
   {
-    const std::vector<std::string> scalar_names{"id",
-                                                "type",
-                                                "diameter",
-                                                "coordination_number",
-                                                "wall_contacts",
-                                                "mean_normal_stress"};
-    const std::vector<std::string> vector_names{
-      "velocity", "spin", "contact_force", "fluid_force"};
-
     // A third of the trace of the stress in each own particle, 1/V sum of force times
     // arm over its contacts; only the normal force is along the arm [Pa].
-    std::vector<double>
+    std::vector<float>
     mean_normal_stresses(const ParticleArrays            &particles,
                          const std::vector<ContactState> &contacts)
     {
-      std::vector<double> stresses(particles.n_owned);
-      const auto          rows = rows_by_id(particles);
+      std::vector<float> stresses(particles.n_owned);
+      const auto         rows = rows_by_id(particles);
       for (const ContactState &contact : contacts)
         for (const auto id : {contact.first, contact.second})
           if (const auto found = rows.find(id); found != rows.end())
@@ -36,72 +27,47 @@ namespace graupel
     }
   } // namespace
 
-  ParticleOutput::ParticleOutput(const Dem &dem)
-    : patches(dem.particles().n_owned)
+  VtuPiece
+  particle_output(const Dem &dem)
   {
     const ParticleArrays &particles = dem.particles();
+    const unsigned int    n         = particles.n_owned;
     const auto            contacts  = dem.contact_states(true);
     const ContactCounts   counts    = count_contacts(particles, contacts);
-    const auto            stresses  = mean_normal_stresses(particles, contacts);
-    for (unsigned int row = 0; row < particles.n_owned; ++row)
+
+    std::vector<dealii::Point<3>>     positions(n);
+    std::vector<double>               diameters(n);
+    std::vector<dealii::Tensor<1, 3>> velocities(n), spins(n), contact_forces(n),
+      fluid_forces(n);
+    for (unsigned int row = 0; row < n; ++row)
       {
-        const Body &body           = particles.body[row];
-        auto       &patch          = patches[row];
-        patch.vertices[0]          = body.position;
-        patch.patch_index          = row;
-        patch.points_are_available = false;
-        patch.data.reinit(scalar_names.size() + 3 * vector_names.size(), 1);
-        unsigned int next = 0;
-        for (const double value : {static_cast<double>(particles.id[row]),
-                                   static_cast<double>(particles.type[row]),
-                                   2. * body.radius,
-                                   static_cast<double>(counts.particles[row]),
-                                   static_cast<double>(counts.walls[row]),
-                                   stresses[row]})
-          patch.data(next++, 0) = value;
-        for (const auto &vector : {body.velocity,
-                                   body.spin,
-                                   dem.contact_force(row),
-                                   particles.external_force[row]})
-          for (unsigned int i = 0; i < 3; ++i)
-            patch.data(next++, 0) = vector[i];
+        const Body &body    = particles.body[row];
+        positions[row]      = body.position;
+        diameters[row]      = 2. * body.radius;
+        velocities[row]     = body.velocity;
+        spins[row]          = body.spin;
+        contact_forces[row] = dem.contact_force(row);
+        fluid_forces[row]   = particles.external_force[row];
       }
-  }
+    const auto own = [&](const auto &values) {
+      return std::vector<std::int32_t>(values.begin(), values.begin() + n);
+    };
 
-  const std::vector<dealii::DataOutBase::Patch<0, 3>> &
-  ParticleOutput::get_patches() const
-  {
-    return patches;
-  }
-
-  std::vector<std::string>
-  ParticleOutput::get_dataset_names() const
-  {
-    std::vector<std::string> names = scalar_names;
-    for (const std::string &name : vector_names)
-      names.insert(names.end(), 3, name);
-    return names;
-  }
-
-  std::vector<
-    std::tuple<unsigned int,
-               unsigned int,
-               std::string,
-               dealii::DataComponentInterpretation::DataComponentInterpretation>>
-  ParticleOutput::get_nonscalar_data_ranges() const
-  {
-    std::vector<
-      std::tuple<unsigned int,
-                 unsigned int,
-                 std::string,
-                 dealii::DataComponentInterpretation::DataComponentInterpretation>>
-      ranges;
-    for (unsigned int i = 0; i < vector_names.size(); ++i)
-      ranges.emplace_back(
-        scalar_names.size() + 3 * i,
-        scalar_names.size() + 3 * i + 2,
-        vector_names[i],
-        dealii::DataComponentInterpretation::component_is_part_of_vector);
-    return ranges;
+    VtuPiece piece(VtuPiece::vertex, positions);
+    piece.add("id",
+              std::vector<std::int64_t>(particles.id.begin(), particles.id.begin() + n));
+    auto types = own(particles.type);
+    for (auto &type : types)
+      ++type; // as parameter files and lists of particles count
+    piece.add("type", types);
+    piece.add("coordination_number", own(counts.particles));
+    piece.add("wall_contacts", own(counts.walls));
+    piece.add("diameter", diameters);
+    piece.add_vectors<double>("velocity", velocities);
+    piece.add_vectors<double>("spin", spins);
+    piece.add("mean_normal_stress", mean_normal_stresses(particles, contacts));
+    piece.add_vectors<float>("contact_force", contact_forces);
+    piece.add_vectors<float>("fluid_force", fluid_forces);
+    return piece;
   }
 } // namespace graupel

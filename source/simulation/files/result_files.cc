@@ -27,7 +27,8 @@ namespace graupel
     const std::regex own_figures(
       "(pressure-profile|pressure-drop|deviation|bottom-force|bed-height|void-fraction|"
       "flux|bubbles|spectra|averages-lines|averages-planes|averages-midplane|radial|bed-"
-      "radial|bed-janssen|monitors|cost|probes|particles|study[a-z-]*)"
+      "radial|bed-janssen|monitors|wall-forces|particle-number|probes|cost|bed|"
+      "study[a-z0-9-]*)"
       "\\.png");
     const std::regex own_checkpoint("(state|version)\\.bin(\\.part)?|fields.*");
 

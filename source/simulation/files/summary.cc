@@ -70,15 +70,16 @@ namespace graupel
   {
     using namespace dealii::Utilities::MPI;
     Json root;
-    root["program"] = {{"name", "graupel"},
-                       {"version", GRAUPEL_VERSION},
-                       {"deal_ii_version", DEAL_II_PACKAGE_VERSION},
-                       {"mpi_ranks", n_mpi_processes(communicator)},
-                       {"parameter_file", summary.parameter_file}};
-    root["bed"]     = to_json(summary.bed);
-    root["fluid"]   = {{"density", summary.fluid.density},
-                       {"viscosity", summary.fluid.viscosity}};
-    root["cases"]   = Json::array();
+    root["program"]   = {{"name", "graupel"},
+                         {"version", GRAUPEL_VERSION},
+                         {"deal_ii_version", DEAL_II_PACKAGE_VERSION},
+                         {"mpi_ranks", n_mpi_processes(communicator)},
+                         {"parameter_file", summary.parameter_file}};
+    root["reference"] = summary.reference;
+    root["bed"]       = to_json(summary.bed);
+    root["fluid"]     = {{"density", summary.fluid.density},
+                         {"viscosity", summary.fluid.viscosity}};
+    root["cases"]     = Json::array();
     for (const CaseResult &result : summary.cases)
       root["cases"].push_back(to_json(result));
     root["ledger"] = {{"max_mass_imbalance", summary.ledger.max_mass_imbalance},

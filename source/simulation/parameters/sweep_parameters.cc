@@ -213,6 +213,14 @@ namespace graupel
                       dealii::Patterns::Anything());
     prm.add_parameter(
       "report", report, "Whether report.html is made at the end of the run.");
+    prm.add_parameter(
+      "reference",
+      reference,
+      "Published values of the same bed that the report shows beside those of the run: "
+      "ricklick-baran-2014 has Table 1 of their paper for beds of 1.6 mm spheres at "
+      "scale "
+      "1 or 2 in a vessel of 25 mm.",
+      dealii::Patterns::Selection("none|ricklick-baran-2014"));
     prm.leave_subsection();
   }
 

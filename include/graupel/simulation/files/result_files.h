@@ -142,7 +142,7 @@ namespace graupel
     template <class Output>
     void add_record(const double       time,
                     const std::string &stem,
-                    Output           &&output,
+                    const Output      &output,
                     Records           &records);
     void write_table(const std::string &name, const std::string &text) const;
     void write_parameters(const dealii::ParameterHandler &prm);

@@ -12,6 +12,7 @@ namespace graupel
   struct Summary
   {
     std::string             parameter_file;
+    std::string             reference;   // that the report compares with
     unsigned int            cells  = 0;  // of the mesh, at the end
     double                  volume = 0.; // of the mesh [m^3]
     BedResult               bed;

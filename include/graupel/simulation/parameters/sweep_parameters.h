@@ -87,6 +87,8 @@ namespace graupel
     std::string probes;
     /** Whether report.html is made at the end. */
     bool report = true;
+    /** Published values that the report shows beside those of the run, by name. */
+    std::string reference = "none";
 
     /** Declares the section "Output". */
     void declare(dealii::ParameterHandler &prm);

@@ -1,26 +1,26 @@
-#!/usr/bin/python3
-"""Writes report.html from the output directory of a run.
+"""Writes report.html from the output directory of a run, or a page that compares runs.
 
-    scripts/report.py OUTPUT_DIR
+    scripts/report DIR                          (installed: graupel-report)
+    scripts/report DIR DIR... [--output FILE]
 
-The report is one file with its figures inside; they also go to
-OUTPUT_DIR/figures as PNG. What is missing in the directory is named on
-standard error and in the report, and the rest is shown. Needs Debian's
-python3-matplotlib. Exit status: 0 if a report was written, 1 if nothing of a
-run was found or the report could not be written, 2 for a wrong call.
+The report is one file with its figures inside; they also go to DIR/figures as PNG. What is
+missing in the directory is named on standard error and in the report, and the rest is
+shown. Several runs are compared on one page, by default comparison.html in the folder where
+it is called. Needs Debian's python3-matplotlib. Exit status: 0 if a page was written, 1 if
+nothing of a run was found or the page could not be written, 2 for a wrong call.
 """
 
 import argparse
 import sys
 from pathlib import Path
 
+from ..run import read_run
+
 try:
-    from common import reference, style
-    from common.run_output import read_run
-    from report_parts import figures_averages, figures_bed, figures_inside, figures_run, figures_settled
-    from report_parts import figures_time, page, study
+    from . import comparison, figures_averages, figures_bed, figures_inside, figures_run
+    from . import figures_settled, figures_time, page, reference, study, style
 except ImportError as error:
-    sys.exit(f"report.py: {error}. The report needs Debian's python3-matplotlib.")
+    sys.exit(f"report: {error}. The report needs matplotlib: apt-get install python3-matplotlib.")
 
 FIGURES = {
     "pressure-profile": figures_bed.pressure_profile,
@@ -77,31 +77,56 @@ def write_report(directory):
         return 0
     run = read_run(directory)
     if run.empty():
-        print(f"report.py: {directory} holds no output of a run.", file=sys.stderr)
+        print(f"report: {directory} holds no output of a run.", file=sys.stderr)
         return 1
-    paper = reference.paper_for(run)
+    paper = reference.chosen_paper(run)
     try:
         figures = make_figures(run, paper, directory / "figures")
         (directory / "report.html").write_text(page.page(run, paper, figures), encoding="utf-8")
     except OSError as error:
-        print(f"report.py: the report cannot be written: {error}.", file=sys.stderr)
+        print(f"report: the report cannot be written: {error}.", file=sys.stderr)
         return 1
     for notice in run.notices:
-        print(f"report.py: {notice}", file=sys.stderr)
+        print(f"report: {notice}", file=sys.stderr)
     print(directory / "report.html")
+    return 0
+
+
+def write_comparison(directories, target):
+    """Writes the page that compares the runs; returns the exit status."""
+    runs = [read_run(directory) for directory in directories]
+    for run in runs:
+        if run.empty():
+            print(f"report: {run.directory} holds no output of a run.", file=sys.stderr)
+            return 1
+    try:
+        target.write_text(comparison.comparison(runs), encoding="utf-8")
+    except OSError as error:
+        print(f"report: the page cannot be written: {error}.", file=sys.stderr)
+        return 1
+    print(target)
     return 0
 
 
 def main():
     """Reads the command line; returns the exit status."""
-    parser = argparse.ArgumentParser(description="Writes report.html from the output of a run.")
-    parser.add_argument(
-        "output_dir", type=Path, metavar="OUTPUT_DIR", help="output directory of a run"
+    parser = argparse.ArgumentParser(
+        prog="report", description="Writes report.html of a run, or a page that compares runs."
     )
-    directory = parser.parse_args().output_dir
-    if not directory.is_dir():
-        parser.error(f"{directory} is no directory")
-    return write_report(directory)
+    parser.add_argument(
+        "directories", type=Path, nargs="+", metavar="DIR", help="output directory of a run"
+    )
+    parser.add_argument(
+        "--output", type=Path, default=Path("comparison.html"), metavar="FILE",
+        help="page of several runs (default: comparison.html)",
+    )  # fmt: skip
+    arguments = parser.parse_args()
+    for directory in arguments.directories:
+        if not directory.is_dir():
+            parser.error(f"{directory} is no directory")
+    if len(arguments.directories) == 1:
+        return write_report(arguments.directories[0])
+    return write_comparison(arguments.directories, arguments.output)
 
 
 if __name__ == "__main__":

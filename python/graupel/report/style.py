@@ -1,6 +1,5 @@
 """How the figures look, and how they reach the page and the folder of PNG files."""
 
-import base64
 import functools
 import io
 from dataclasses import dataclass
@@ -14,6 +13,8 @@ from matplotlib import colormaps
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.backends.backend_svg import FigureCanvasSVG
 from matplotlib.figure import Figure
+
+from . import hover
 
 # Okabe and Ito's colours, which stay apart for colour-blind readers.
 BLUE = "#0072B2"
@@ -65,10 +66,11 @@ class NotOfThisRun(NothingToShow):
 
 @dataclass
 class Rendered:
-    """A finished figure: the name of its PNG file, and its SVG as a data URI."""
+    """A finished figure: its SVG to stand in the page, and what the page's script shows under
+    the pointer (hover.py)."""
 
-    png_name: str
-    data_uri: str
+    svg: str
+    hover: dict
 
 
 def new_figure(width=7.4, height=3.8):
@@ -77,18 +79,39 @@ def new_figure(width=7.4, height=3.8):
 
 
 def render(figure, name, folder):
-    """Writes folder/NAME.png, and returns the figure for the page."""
-    png_name = f"{name}.png"
+    """Writes folder/NAME.png unless the folder is None, and returns the figure for the page."""
     # The canvases are called directly: Figure.savefig draws everything twice.
-    FigureCanvasAgg(figure).print_png(folder / png_name)
+    canvas = FigureCanvasAgg(figure)
+    if folder is None:
+        canvas.draw()
+    else:
+        canvas.print_png(folder / f"{name}.png")
     # The parts have found their places; to look for them again costs as much
     # as drawing.
     figure.set_layout_engine("none")
+    shown = hover.of_figure(figure)
+    # The page finds what belongs to a case by its id.
+    marked = figure.findobj(lambda artist: artist.get_gid() is not None)
+    for number, artist in enumerate(marked):
+        artist.set_gid(f"{name}.{number}.{artist.get_gid()}")
     buffer = io.BytesIO()
     no_metadata = {key: None for key in ("Creator", "Date", "Format", "Type")}
     FigureCanvasSVG(figure).print_svg(buffer, metadata=no_metadata)
-    encoded = base64.b64encode(buffer.getvalue()).decode("ascii")
-    return Rendered(png_name, f"data:image/svg+xml;base64,{encoded}")
+    svg = buffer.getvalue().decode("utf-8")
+    return Rendered(svg[svg.index("<svg") :], shown)
+
+
+def of_case(number):
+    """Mark (gid) of what a figure draws of one flow case, so that the reader can choose it."""
+    return f"case-{number}"
+
+
+def legend_beside(axes, source=None, **more):
+    """A legend to the right of the axes, where there is no data; of the curves of @p source if
+    they are others'."""
+    handles, labels = (source or axes).get_legend_handles_labels()
+    if handles:
+        axes.legend(handles, labels, loc="center left", bbox_to_anchor=(1.01, 0.5), **more)
 
 
 def colour_of_each(count):

@@ -2,8 +2,10 @@
 
 import numpy as np
 
-from common.style import BLACK, BLUE, GREY, MILLI, ORANGE, VERMILLION, NothingToShow, NotOfThisRun
-from common.style import known, new_figure
+from ..run import OF_CYLINDERS
+from . import reference
+from .style import BLACK, BLUE, GREY, MILLI, ORANGE, VERMILLION, NothingToShow, NotOfThisRun
+from .style import legend_beside, new_figure
 
 
 def table_of(run, name):
@@ -11,6 +13,8 @@ def table_of(run, name):
     if not run.has_particles():
         raise NotOfThisRun("there are no particles")
     table = run.bed.get(name)
+    if table is None and name in OF_CYLINDERS and (run.directory / f"{name}.csv").is_file():
+        raise NotOfThisRun("the vessel is not a whole cylinder")
     if table is None:
         raise NothingToShow(f"{name}.csv was not found, or holds no rows")
     return table
@@ -31,7 +35,7 @@ def bed_radial(run, paper):
     axes.set_ylabel("void fraction [-]")
     axes.set_xlim(left=0.0)
     axes.set_ylim(0.0, 1.0)
-    axes.legend()
+    legend_beside(axes)
     return figure
 
 
@@ -41,10 +45,9 @@ def bed_janssen(run, paper):
     z = table["z"] * MILLI
     figure = new_figure(height=3.8)
     left, right = figure.subplots(1, 2, sharey=True)
-    load = np.where(table["load"] > 0.0, table["load"], np.nan)
-    if not known(load / table["stress"]):
+    area = reference.cross_section_of_bed(run)
+    if area is None:
         raise NothingToShow("nothing stands on any plane of bed-janssen.csv")
-    area = np.nanmedian(load / table["stress"])
     left.plot(table["weight"] / area, z, ":", color=GREY, label="without a wall")
     left.plot(table["stress"], z, color=BLUE, label="load over cross-section")
     friction = table["mobilised_friction"][0]
@@ -73,5 +76,5 @@ def bed_janssen(run, paper):
     right.set_xlabel("vertical force [N]")
     for axes in (left, right):
         axes.set_ylim(bottom=0.0)
-        axes.legend(loc="upper right", fontsize=8)
+        axes.legend(loc="lower center", bbox_to_anchor=(0.5, 1.0), ncols=2, fontsize=8)
     return figure

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from common.style import (
+from .style import (
     BLUE,
     GREEN,
     GREY,
@@ -13,6 +13,7 @@ from common.style import (
     NothingToShow,
     NotOfThisRun,
     known,
+    legend_beside,
     new_figure,
 )
 
@@ -121,8 +122,7 @@ def draw_panel(axes, table, panel):
         axes.set_yscale("log")
     axes.set_ylabel(label, fontsize=8)
     axes.tick_params(labelsize=7.5)
-    if curves[0][2] and axes.lines:
-        axes.legend(loc="center left", bbox_to_anchor=(1.0, 0.5), fontsize=8)
+    legend_beside(axes, fontsize=8)
 
 
 def monitors(run, paper):

@@ -2,13 +2,15 @@
 
 import csv
 
-from .run_output import as_number
+from .run import as_number
 
 TEXTS = ("quantity", "status")
 
 
 def read_study(path):
-    """The rows of study.csv in the order of the file: numbers, or None where there is none."""
+    """The rows of study.csv in the order of the file, each a dictionary of its columns:
+    numbers, or None where there is none, and texts. Sizes are in metres and seconds, each
+    value in the unit that its quantity names."""
     with open(path, newline="", encoding="utf-8") as file:
         return [
             {key: value if key in TEXTS else as_number(value) for key, value in row.items()}

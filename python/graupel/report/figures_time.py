@@ -2,8 +2,7 @@
 
 import numpy as np
 
-from common.run_output import WALL_FORCE
-from common.style import NotOfThisRun, colour_of_each, known, new_figure
+from .style import NotOfThisRun, colour_of_each, known, legend_beside, new_figure
 
 from .figures_run import shade_stretches, thinned
 
@@ -33,8 +32,7 @@ def draw(table, panels, shade=True):
                 moment, values = thinned(table["time"], table[name])
                 axes.plot(moment, values, color=colour, linewidth=1.1, label=legend)
         axes.set_ylabel(label)
-        if axes.lines:
-            axes.legend(loc="center left", bbox_to_anchor=(1.0, 0.5))
+        legend_beside(axes, fontsize=8)
     if shade:
         shade_stretches(rows, table)
     rows[-1].set_xlabel("simulated time [s]")
@@ -50,13 +48,20 @@ def known_columns(table, names):
 
 
 def wall_forces(run, paper):
-    """Vertical force on each wall that has a column of its own."""
-    names = [name for name in run.monitors or {} if name.startswith(WALL_FORCE)]
-    names = known_columns(run.monitors, names)
-    if not names:
-        raise NotOfThisRun("no wall has a column of its own")
-    curves = [(name, name[len(WALL_FORCE) :]) for name in names]
-    return draw(run.monitors, [("force [N]", curves)])
+    """Vertical forces of particles and fluid on each wall, those that are never zero."""
+    if not run.wall_forces:
+        raise NotOfThisRun("there are no forces on walls")
+    table, panels = dict(run.wall_forces), []
+    for source in ("particles", "fluid"):
+        names = [name for name in table if name.startswith(f"{source}_on_") and name.endswith("_z")]
+        names = [name for name in known_columns(table, names) if np.nanmax(np.abs(table[name])) > 0]
+        curves = [(name, name[len(source) + 4 : -2]) for name in names]
+        if curves:
+            panels.append((f"{source} on walls\ndownwards [N]", curves))
+        table.update({name: -table[name] for name in names})
+    if not panels:
+        raise NotOfThisRun("no wall bears anything")
+    return draw(table, panels, shade=False)
 
 
 def particle_number(run, paper):

@@ -5,8 +5,8 @@ from pathlib import Path
 
 import numpy as np
 
-from common.style import BLACK, BLUE, GREY, PERCENT, VERMILLION, new_figure, render
-from common.study_table import read_study
+from .style import BLACK, BLUE, GREY, PERCENT, VERMILLION, legend_beside, new_figure, render
+from ..study import read_study
 
 from . import page
 
@@ -60,7 +60,7 @@ def error_figure(quantity, rows, key):
         )
     axes.set_xlabel(SIZES[key])
     axes.set_ylabel(quantity)
-    axes.legend()
+    legend_beside(axes)
     return figure
 
 
@@ -102,7 +102,7 @@ def value_figure(quantity, rows, key):
     axes.set_xlim(left=-0.02 * size.max() if size.max() / size.min() <= 50.0 else 0.0)
     axes.set_xlabel(SIZES[key])
     axes.set_ylabel(quantity)
-    axes.legend()
+    legend_beside(axes)
     return figure
 
 
@@ -161,7 +161,7 @@ def section(number, quantity, rows, folder):
     figure = figure_of(quantity, rows, key)
     if figure is not None:
         shown = render(figure, f"study-{number}", folder)
-        lines.append(f'<figure><img alt="{escape(name)}" src="{shown.data_uri}"></figure>')
+        lines.append(page.figure(f"study-{number}", shown, escape(name)))
     return lines
 
 
@@ -180,6 +180,6 @@ def write_report(directory):
         body += section(number, quantity, rows, folder)
     body.append(
         "<footer>The numbers are in study.csv; each level has its files in level-N, where"
-        " scripts/report.py makes a report of it.</footer>"
+        " scripts/report makes a report of it.</footer>"
     )
     (directory / "report.html").write_text(page.whole(title, body), encoding="utf-8")

@@ -1,7 +1,7 @@
 """What a run is compared with: Ergun's equation, and the paper that it reproduces.
 
 Paper: M. Ricklick, O. Baran, Analytical scaling of DEM particles for efficient
-packed-bed simulations (2014); its Table 1 is doc/ricklick-baran-2014-table1.csv.
+packed-bed simulations (2014); its Table 1 is ricklick-baran-2014-table1.csv beside this file.
 """
 
 import csv
@@ -11,8 +11,10 @@ from pathlib import Path
 
 import numpy as np
 
-TABLE_1 = Path(__file__).resolve().parents[2] / "doc" / "ricklick-baran-2014-table1.csv"
+TABLE_1 = Path(__file__).with_name("ricklick-baran-2014-table1.csv")
 
+# Its name in Output/reference.
+PAPER = "ricklick-baran-2014"
 PAPER_DIAMETER = 1.6e-3
 PAPER_VESSEL = 25e-3
 
@@ -109,11 +111,30 @@ def paper_for(run, table=TABLE_1):
     return paper
 
 
+def chosen_paper(run):
+    """The paper's findings if the run names them as its reference (Output/reference)."""
+    return paper_for(run) if run.get("reference") == PAPER else None
+
+
+def cross_section_of_bed(run):
+    """The cross-section of the vessel where the settled bed stands [m^2], by the loads and
+    stresses of bed-janssen.csv, in whatever vessel; None without them."""
+    table = run.bed.get("bed-janssen")
+    if table is None:
+        return None
+    load = np.where(table["load"] > 0.0, table["load"], np.nan)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        areas = load / table["stress"]
+    return float(np.nanmedian(areas)) if np.any(np.isfinite(areas)) else None
+
+
 def weight_per_area(run, area=None):
-    """Weight of the bed over the cross-section [Pa]; None if unknown. @p area [m^2] is that of
-    a vessel that is no cylinder."""
+    """Weight of the bed over the cross-section [Pa]; None if unknown. The @p area [m^2] is
+    that of the bed if it is not given, or of the cylinder."""
     diameter = run.number("bed", "vessel_diameter")
     weights = [case["weight"] for case in run.cases if case["weight"] is not None]
+    if area is None:
+        area = cross_section_of_bed(run)
     if area is None and diameter is not None:
         area = math.pi * diameter**2 / 4.0
     return weights[0] / area if area and weights else None

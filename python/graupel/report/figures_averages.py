@@ -3,9 +3,9 @@
 import numpy as np
 from matplotlib.colors import Normalize
 
-from common.run_output import grid_of
-from common.style import BLACK, BLUE, GREY, MILLI, VERMILLION
-from common.style import NotOfThisRun, colour_of_each, known, new_figure
+from ..run import grid_of
+from .style import BLACK, BLUE, GREY, MILLI, VERMILLION
+from .style import NotOfThisRun, colour_of_each, known, legend_beside, new_figure
 
 from .figures_inside import draw_field, panels, void_fraction_range
 from .figures_run import thinned
@@ -54,11 +54,14 @@ def lines(run, paper):
     for row, (name, grid) in zip(rows, grids.items()):
         for axes, (label, curves) in zip(row, LINE_PANELS):
             draw_line(axes, grid, curves)
+            if not axes.lines:
+                middle = {"ha": "center", "transform": axes.transAxes, "color": GREY}
+                axes.text(0.5, 0.5, "nothing there", **middle)
+                axes.set_yticks([])
             axes.set_ylabel(label, fontsize=8)
             axes.tick_params(labelsize=7.5)
             axes.set_xlabel(f"along {name} [mm]", fontsize=8)
-    if rows[0, 0].lines:
-        rows[0, 0].legend(fontsize=7)
+    legend_beside(rows[0, -1], rows[0, 0], fontsize=7.5)
     return figure
 
 
@@ -90,10 +93,10 @@ def planes(run, paper):
         values = np.full((len(other), len(one)), np.nan)
         values[at_other, at_one] = grid["solid_fraction"]
         image = draw_field(axes, one * MILLI, other * MILLI, values, "viridis", None)
-        axes.set_xticks(np.linspace(0.0, one[-1] * MILLI, 3).round(1))
         draw_arrows(axes, grid)
         axes.set_title(f"{name}, case {number}", fontsize=8)
         axes.set_xlabel("along [mm]", fontsize=8)
+        image.set_label("solid fraction [-]")
         bar = figure.colorbar(image, ax=axes, shrink=0.75, label="solid fraction [-]")
         bar.outline.set_visible(False)
     row[0].set_ylabel("across [mm]")
@@ -145,7 +148,7 @@ def spectra(run, paper):
         axes.loglog(table["frequency"], density, color=colour, linewidth=1.1, label=name)
     axes.set_xlabel("frequency [Hz]")
     axes.set_ylabel("power over the whole [1/Hz]")
-    axes.legend(loc="center left", bbox_to_anchor=(1.0, 0.5), fontsize=7.5)
+    legend_beside(axes, fontsize=7.5)
     return figure
 
 
@@ -171,7 +174,8 @@ def bubbles(run, paper):
     norm = Normalize(np.floor(lowest * 20.0) / 20.0, 1.0)
     for axes, moment, (x, z, values) in zip(row, moments, grids):
         image = draw_field(axes, x * MILLI, z * MILLI, values, "viridis", norm)
-        axes.set_title(f"{moment:.3f} s", fontsize=8)
+        axes.set_title(f"{moment:.3f} s", fontsize=7.5)
+        image.set_label("void fraction [-]")
     row[0].set_ylabel("z [mm]")
     bar = upper.colorbar(image, ax=list(row), shrink=0.75, label="void fraction [-]")
     bar.outline.set_visible(False)

@@ -2,12 +2,14 @@
 
 import numpy as np
 from matplotlib.colors import Normalize
+from matplotlib.ticker import MaxNLocator
 
-from common.run_output import grid_of
-from common.style import BLACK, GREY, MILLI, NothingToShow, colour_of_each, known, new_figure
-from common.style import of_cases
+from ..run import grid_of
+from .style import BLACK, GREY, MILLI, NothingToShow, NotOfThisRun, colour_of_each, known
+from .style import legend_beside, new_figure, of_case, of_cases
 
 from .figures_bed import label_of
+from .hover import plain
 
 MOST_PANELS = 7
 
@@ -56,10 +58,14 @@ def panels(run, tables, name, colour_map, choose_range, label, divide_by_velocit
         raise NothingToShow(f"midplane-NN.csv holds no values of {name}")
 
     norm = choose_range([values for *_, values in grids])
-    figure = new_figure(width=max(3.2, 1.05 * len(grids) + 1.1), height=5.4)
+    shape = max(np.ptp(x) / np.ptp(z) for _, x, z, _ in grids)
+    figure = new_figure(*size_of_row(len(grids), shape))
     row = np.atleast_1d(figure.subplots(1, len(grids), sharey=True))
     for axes, (number, x, z, values) in zip(row, grids):
         image = draw_field(axes, x, z, values, colour_map, norm)
+        image.set_label(plain(label))
+        axes.set_gid(of_case(number))
+        axes.set_xlabel("x [mm]")
         velocity = (run.case(number) or {}).get("superficial_velocity")
         speed = "" if velocity is None else f"\n{velocity:.3f} m/s"
         axes.set_title(f"case {number}{speed}", fontsize=8)
@@ -67,10 +73,17 @@ def panels(run, tables, name, colour_map, choose_range, label, divide_by_velocit
         if height is not None:
             axes.axhline(height * MILLI, color=BLACK, linewidth=0.8, linestyle=":")
     row[0].set_ylabel("height over the bottom z [mm]")
-    row[len(row) // 2].set_xlabel("distance from the axis x [mm]")
     bar = figure.colorbar(image, ax=list(row), extend="both", shrink=0.75, pad=0.02, label=label)
     bar.outline.set_visible(False)
     return figure
+
+
+def size_of_row(n_panels, shape):
+    """Width and height [inch] of a figure with panels side by side, each with an image of this
+    width over height, lengths to scale."""
+    height = min(4.4, 6.3 / (n_panels * shape))
+    width = max(n_panels * max(0.75, height * shape), 2.5)
+    return width + 1.4, max(height, 1.6) + 1.0
 
 
 def draw_field(axes, x, z, values, colour_map, norm):
@@ -88,7 +101,7 @@ def draw_field(axes, x, z, values, colour_map, norm):
     )
     axes.grid(False)
     axes.tick_params(labelsize=7.5)
-    axes.set_xticks([-10, 0, 10] if x[-1] >= 10 else [0])
+    axes.xaxis.set_major_locator(MaxNLocator(2, steps=[1, 2, 4, 5, 10]))
     return image
 
 
@@ -117,17 +130,20 @@ def flux(run, paper):
 @of_cases
 def radial(run, paper):
     """Void fraction and axial flux against the distance from the wall."""
+    if not run.radial and any(run.directory.glob("radial-*.csv")):
+        raise NotOfThisRun("the vessel is not a whole cylinder")
     if not run.radial:
         raise NothingToShow("no radial-NN.csv was found")
     figure = new_figure(height=3.6)
     left, right = figure.subplots(1, 2, sharex=True)
     for colour, (number, table) in zip(colour_of_each(len(run.radial)), sorted(run.radial.items())):
         distance = table["wall_distance"] * MILLI
-        left.plot(distance, table["void_fraction"], color=colour, label=label_of(run, number))
+        label, mark = label_of(run, number), {"gid": of_case(number)}
+        left.plot(distance, table["void_fraction"], color=colour, label=label, **mark)
         case = run.case(number)
         if case is not None and case["superficial_velocity"]:
             ratio = table["superficial_velocity"] / case["superficial_velocity"]
-            right.plot(distance, ratio, color=colour)
+            right.plot(distance, ratio, color=colour, label=f"_{label}", **mark)
     left.set_ylabel("void fraction [-]")
     right.set_ylabel("axial flux over $V_s$ [-]")
     right.axhline(1.0, color=GREY, linewidth=0.9)
@@ -145,6 +161,5 @@ def radial(run, paper):
             )
             in_diameters.set_xlabel("in particle diameters [-]", fontsize=8)
             in_diameters.tick_params(labelsize=7.5)
-    handles, labels = left.get_legend_handles_labels()
-    right.legend(handles, labels, loc="upper right", ncols=2 if len(labels) > 8 else 1)
+    legend_beside(right, left)
     return figure

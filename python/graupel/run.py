@@ -1,7 +1,7 @@
 """Reads the output directory of a run (doc/output-files.md says what lies there).
 
-Nothing here stops the report: what is missing or cannot be read becomes a
-sentence in RunOutput.notices, and the value None (or a column of NaN).
+Nothing here stops the reader: what is missing or cannot be read becomes a sentence in
+Run.notices, and the value None (or a column of NaN).
 """
 
 import csv
@@ -13,99 +13,87 @@ from pathlib import Path
 
 import numpy as np
 
-CASE_KEYS = (
-    "superficial_velocity",
-    "pressure_drop",
-    "ergun_pressure_drop",
-    "deviation_from_ergun",
-    "gradient_deviation_from_ergun",
-    "wall_channelling_deviation",
-    "bed_height",
-    "bed_rise",
-    "mean_void_fraction",
-    "bottom_force",
-    "wall_force",
-    "fluid_force",
-    "weight",
-    "fluidized",
-    "steady",
-    "simulated_time",
-    "wall_seconds",
-    "cpu_seconds",
-)
-CASE_FLAGS = ("fluidized", "steady")
-# What a case may tell beyond that: the force of all that the particles stand on.
-FURTHER_CASE_KEYS = ("support_force",)
+from .columns import AVERAGES_COLUMNS, BED_COLUMNS, CASE_FLAGS, CASE_KEYS, MIDPLANE_COLUMNS
+from .columns import MONITOR_COLUMNS, PROFILE_COLUMNS, RADIAL_COLUMNS, SNAPSHOT_COLUMNS
+from .columns import TEXT_COLUMNS
+from .parameters import read_parameters
+from .vtu import pvd_records, read_vtu
 
-MONITOR_COLUMNS = (
-    "time",
-    "phase",
-    "case",
-    "superficial_velocity",
-    "pressure_drop",
-    "bed_height",
-    "bottom_force",
-    "wall_force",
-    "fluid_force",
-    "kinetic_energy_per_particle",
-    "maximum_speed",
-    "mass_imbalance",
-    "momentum_imbalance",
-    "solid_volume_error",
-    "linear_iterations",
-    "cells",
-    "worst_node_imbalance",
-    "worst_cell_imbalance",
-)
-PROFILE_COLUMNS = ("z", "pressure", "void_fraction", "superficial_velocity", "ergun_pressure")
-RADIAL_COLUMNS = ("wall_distance", "void_fraction", "superficial_velocity")
-BED_COLUMNS = {
-    "bed-radial": ("wall_distance", "void_fraction", "de_klerk"),
-    "bed-janssen": (
-        "z",
-        "weight",
-        "load",
-        "wall_load",
-        "stress",
-        "janssen_stress",
-        "mobilised_friction",
-    ),
-}
-MIDPLANE_COLUMNS = ("x", "z", "void_fraction", "superficial_velocity", "pressure")
-TEXT_COLUMNS = ("phase", "name", "quantity", "unit")
-# Tables of the means over time, STEM-NN.csv, which runs without a window do not have.
-AVERAGES_COLUMNS = {
-    "averages": ("quantity", "unit", "mean", "rms", "error", "frequency"),
-    "spectra": ("frequency",),
-    "averages-lines": ("name", "along", "solid_fraction", "velocity_z"),
-    "averages-planes": ("name", "along", "across", "solid_fraction"),
-    "averages-midplane": MIDPLANE_COLUMNS,
-}
-# Columns of monitors.csv that not every run has.
-WALL_FORCE = "force_"
+
+# Tables that have no rows where the vessel is not a whole cylinder.
+OF_CYLINDERS = ("radial", "bed-radial")
 
 
 @dataclass
-class RunOutput:
-    """All that the report needs of one run, in SI units.
+class Run:
+    """All of one run, in SI units (graupel.UNITS has them by column).
 
-    Per-case tables are keyed by the case's number, from 1, those of averages by their
-    stem first; a table maps the name of a column to its array. A case maps every name of
-    CASE_KEYS, and "number", to a value or None.
+    A table maps the name of a column to its array of shape (rows,): numbers, NaN where there
+    is none, or text. Tables of cases are keyed by the number of the case, from 1.
+
+    summary     what summary.json says, as nested dictionaries
+    parameters  texts of parameters.prm by path, as in "Flow/time step"
+    cases       a dictionary a flow case: the columns of cases.csv, and "number"; value or None
+    monitors    monitors.csv: a row a step of the flow
+    wall_forces wall-forces.csv: "time" [s], "particles_on_NAME_x" and so on [N]
+    probes      probes.csv: "time" [s], "NAME_pressure" [Pa] and so on
+    snapshots   snapshots.csv: void fraction on the plane y = 0 over time
+    profiles    profiles-NN.csv by case: averages over cross-sections along z
+    radial      radial-NN.csv by case: averages around the axis by distance from the wall
+    midplane    midplane-NN.csv by case: fields on the plane y = 0; grid_of() makes images of it
+    averages    by stem, then case: averages-NN.csv, spectra-NN.csv, averages-lines-NN.csv,
+                averages-planes-NN.csv, averages-midplane-NN.csv
+    bed         by stem: bed-axial.csv, bed-radial.csv, bed-janssen.csv, bed-coordination.csv,
+                bed-contacts.csv
+    notices     sentences on what is missing or cannot be read
+
+    Tables that a run does not have are None, or not in their dictionary.
     """
 
     directory: Path
     summary: dict = field(default_factory=dict)
+    parameters: dict = field(default_factory=dict)
     cases: list = field(default_factory=list)
     monitors: dict = None
+    wall_forces: dict = None
+    probes: dict = None
+    snapshots: dict = None
     profiles: dict = field(default_factory=dict)
     radial: dict = field(default_factory=dict)
     midplane: dict = field(default_factory=dict)
-    bed: dict = field(default_factory=dict)
-    probes: dict = None
-    snapshots: dict = None
     averages: dict = field(default_factory=dict)
+    bed: dict = field(default_factory=dict)
     notices: list = field(default_factory=list)
+
+    def records(self, stem):
+        """Times [s] and paths of the files for ParaView that STEM.pvd lists, in their order;
+        stem is solution, particles, contacts or averages."""
+        return pvd_records(self.directory / f"{stem}.pvd")
+
+    def particles(self, number=-1):
+        """The particles at the moment @p number of particles.pvd, by default the last, as a
+        VtuFile: points are the centers (n, 3) [m]; values id, type, coordination_number,
+        wall_contacts (n,) [-], diameter (n,) [m], velocity (n, 3) [m/s], spin (n, 3) [rad/s],
+        mean_normal_stress (n,) [Pa], contact_force and fluid_force (n, 3) [N]."""
+        return read_vtu(self.records("particles")[number][1])
+
+    def contacts(self, number=-1):
+        """The contacts likewise: a line each, points are its ends (2 n, 3) [m]; values, the
+        same at both ends, normal_force and tangential_force [N], overlap [m], with_wall (2 n,)
+        and force (2 n, 3) [N]."""
+        return read_vtu(self.records("contacts")[number][1])
+
+    def fields(self, number=-1):
+        """The fields likewise, from solution.pvd: points are the corners of the cells, each
+        cell with its own (8 cells, 3) [m]; values void_fraction [-], pressure [Pa],
+        drag_coefficient [kg/m^3/s], subdomain, refinement_level (8 cells,) [-], flux and
+        interstitial velocity (8 cells, 3) [m/s]."""
+        return read_vtu(self.records("solution")[number][1])
+
+    def mean_fields(self, number=-1):
+        """The means over the window of Averages likewise, from averages.pvd: void_fraction_mean
+        and _rms [-], pressure_mean and _rms [Pa], flux_mean and _rms [m/s]."""
+        return read_vtu(self.records("averages")[number][1])
 
     def get(self, *path):
         """The entry of summary.json at this path of keys; None if absent or null."""
@@ -163,8 +151,9 @@ def as_flag(value):
     return None
 
 
-def read_table(path, columns, notices):
-    """Columns of a CSV file by name; None, with a notice, where it has no rows.
+def read_table(path, columns, notices, may_be_empty=False):
+    """Columns of a CSV file by name; None where it has no rows, with a notice unless it may
+    have none.
 
     Incomplete rows (a run that was killed while writing) are left out and
     counted in a notice; a missing column is NaN throughout.
@@ -176,7 +165,8 @@ def read_table(path, columns, notices):
         notices.append(f"{path.name} cannot be read: {error}.")
         return None
     if len(rows) < 2:
-        notices.append(f"{path.name} holds no rows of values.")
+        if not (may_be_empty and rows):
+            notices.append(f"{path.name} holds no rows of values.")
         return None
 
     header = [name.strip() for name in rows[0]]
@@ -241,7 +231,7 @@ def read_cases(directory, summary, notices):
         rows = rows_of_cases_csv(path, notices)
     cases = []
     for number, row in enumerate(rows, start=1):
-        names = [key for key in CASE_KEYS + FURTHER_CASE_KEYS if key not in CASE_FLAGS]
+        names = [key for key in {**dict.fromkeys(CASE_KEYS), **row} if key not in CASE_FLAGS]
         case = {key: as_number(row.get(key)) for key in names}
         case.update({key: as_flag(row.get(key)) for key in CASE_FLAGS})
         case["number"] = number
@@ -270,7 +260,7 @@ def read_numbered(run, stem, columns, every_case=True, optional=False):
         if not match:
             continue
         on_disk.add(int(match.group(1)))
-        table = read_table(path, columns, notices)
+        table = read_table(path, columns, notices, stem in OF_CYLINDERS)
         if table is not None:
             tables[int(match.group(1))] = table
     if optional:
@@ -284,32 +274,32 @@ def read_numbered(run, stem, columns, every_case=True, optional=False):
 
 
 def read_run(directory):
-    """Reads everything in @p directory; see RunOutput."""
-    run = RunOutput(Path(directory))
+    """Reads everything in @p directory but the files for ParaView; see Run."""
+    run = Run(Path(directory))
     notices = run.notices
     run.summary = read_summary(run.directory, notices)
     run.cases = read_cases(run.directory, run.summary, notices)
-    monitors = run.directory / "monitors.csv"
-    if monitors.is_file():
-        run.monitors = read_table(monitors, MONITOR_COLUMNS, notices)
-    elif run.has_flow():
+
+    def table(name, columns=("time",)):
+        path = run.directory / f"{name}.csv"
+        is_there = path.is_file()
+        return read_table(path, columns, notices, name in OF_CYLINDERS) if is_there else None
+
+    if (run.directory / "parameters.prm").is_file():
+        run.parameters = read_parameters(run.directory / "parameters.prm")
+    run.monitors = table("monitors", MONITOR_COLUMNS)
+    if run.has_flow() and not (run.directory / "monitors.csv").is_file():
         notices.append("monitors.csv is missing.")
+    run.wall_forces = table("wall-forces")
+    run.probes = table("probes")
+    run.snapshots = table("snapshots", SNAPSHOT_COLUMNS)
     run.profiles = read_numbered(run, "profiles", PROFILE_COLUMNS)
     run.radial = read_numbered(run, "radial", RADIAL_COLUMNS)
-    probes = run.directory / "probes.csv"
-    if probes.is_file():
-        run.probes = read_table(probes, ("time",), notices)
-    for name, columns in BED_COLUMNS.items():
-        path = run.directory / f"{name}.csv"
-        table = read_table(path, columns, notices) if path.is_file() else None
-        if table is not None:
-            run.bed[name] = table
     run.midplane = read_numbered(run, "midplane", MIDPLANE_COLUMNS, every_case=False)
     for stem, columns in AVERAGES_COLUMNS.items():
         run.averages[stem] = read_numbered(run, stem, columns, optional=True)
-    snapshots = run.directory / "snapshots.csv"
-    if snapshots.is_file():
-        run.snapshots = read_table(snapshots, ("time", "case", "x", "z", "void_fraction"), notices)
+    beds = {name: table(name, columns) for name, columns in BED_COLUMNS.items()}
+    run.bed = {name: rows for name, rows in beds.items() if rows is not None}
     return run
 
 

@@ -4,15 +4,16 @@ from html import escape
 
 import numpy as np
 
-from common import reference
+from . import reference
 
 from . import words
 
 NO_CASES = '<p class="absent">No flow case was found.</p>'
 
 
-def table(groups, heads, rows):
-    """An HTML table: groups of columns [(title, count)], heads [(name, unit)], rows of text."""
+def table(groups, heads, rows, cases=()):
+    """An HTML table: groups of columns [(title, count)], heads [(name, unit)], rows of text;
+    @p cases has the number of the flow case of each row, where there is one."""
     lines = ['<div class="wide"><table>', "<thead>"]
     if groups:
         cells = "".join(
@@ -21,10 +22,17 @@ def table(groups, heads, rows):
         lines.append(f"<tr>{cells}</tr>")
     cells = "".join(f"<th>{name}<span>{unit}</span></th>" for name, unit in heads)
     lines += [f"<tr>{cells}</tr>", "</thead>", "<tbody>"]
-    for row in rows:
-        lines.append("<tr>" + "".join(f"<td>{escape(str(cell))}</td>" for cell in row) + "</tr>")
+    for row, case in zip(rows, cases or [None] * len(rows)):
+        mark = "" if case is None else f' data-case="{case}"'
+        cells = "".join(f"<td>{escape(str(cell))}</td>" for cell in row)
+        lines.append(f"<tr{mark}>{cells}</tr>")
     lines += ["</tbody>", "</table></div>"]
     return "\n".join(lines)
+
+
+def numbers_of(run):
+    """The numbers of the cases."""
+    return [case["number"] for case in run.cases]
 
 
 def pressure_and_bed(run):
@@ -63,7 +71,7 @@ def pressure_and_bed(run):
         for case in run.cases
     ]
     groups = [("", 2), ("pressure drop", 2), ("deviation from Ergun", 3), ("bed", 3), ("state", 2)]
-    return table(groups, heads, rows)
+    return table(groups, heads, rows, numbers_of(run))
 
 
 def forces_and_cost(run):
@@ -97,7 +105,8 @@ def forces_and_cost(run):
         ]
         for case in run.cases
     ]
-    return table([("", 2), ("forces along the axis", 5), ("time", 3)], heads, rows)
+    groups = [("", 2), ("forces along the axis", 5), ("time", 3)]
+    return table(groups, heads, rows, numbers_of(run))
 
 
 def imbalance(case):
@@ -175,7 +184,7 @@ def deviation_in_parts(run):
                 words.number(parts["full"], "+.2f", 100.0),
             ]
         )
-    return table([], heads, rows)
+    return table([], heads, rows, numbers_of(run))
 
 
 # Quantities of the table of means, beside all probes, with a factor and a unit.

@@ -1,47 +1,14 @@
-"""The page: sections, captions and style sheet. Nothing in it is fetched from elsewhere."""
+"""The page: sections and captions. Nothing in it is fetched from elsewhere."""
 
+import json
 from html import escape
-from pathlib import PurePath
+from pathlib import Path, PurePath
 
 from . import tables, words
 
-STYLE = """
-:root { color-scheme: light; }
-body { margin: 0; background: #fff; color: #222;
-       font: 15px/1.55 system-ui, -apple-system, "Segoe UI", "Helvetica Neue", Arial, sans-serif; }
-main { max-width: 56rem; margin: 0 auto; padding: 2.5rem 1.5rem 3rem; }
-h1 { font-size: 1.7rem; font-weight: 600; margin: 0; letter-spacing: -0.01em;
-     overflow-wrap: anywhere; }
-h2 { font-size: 1.15rem; font-weight: 600; margin: 2.6rem 0 0.7rem; padding-bottom: 0.3rem;
-     border-bottom: 1px solid #ddd; }
-.under { color: #666; margin: 0.25rem 0 1.6rem; font-size: 0.87rem; }
-.summary { font-size: 1.03rem; }
-figure { margin: 1.4rem 0 1.8rem; break-inside: avoid; }
-figure img { display: block; max-width: 100%; height: auto; margin: 0 auto; }
-figcaption, .note { color: #555; font-size: 0.87rem; margin: 0.6rem 0 0; }
-.note { margin: 0.6rem 0; }
-figcaption b { color: #222; }
-.wide { overflow-x: auto; }
-table { border-collapse: collapse; font-size: 0.83rem; margin: 0.8rem 0 0.6rem; width: 100%;
-        font-variant-numeric: tabular-nums; break-inside: avoid; }
-th, td { text-align: right; padding: 0.28rem 0.6rem; }
-th { font-weight: 600; vertical-align: bottom; border-bottom: 1px solid #999; }
-th span { display: block; font-weight: 400; color: #777; }
-th.group { text-align: center; border-bottom: 1px solid #ddd; color: #555; font-weight: 400; }
-td { white-space: nowrap; }
-tbody tr { border-bottom: 1px solid #eee; }
-.notices { background: #fdf6e3; border-left: 3px solid #e69f00; padding: 0.6rem 1rem;
-           font-size: 0.87rem; margin: 1.4rem 0; }
-.notices p { margin: 0; } .notices ul { margin: 0.3rem 0 0; padding-left: 1.2rem; }
-.absent { color: #777; font-style: italic; margin: 1.2rem 0; }
-footer { color: #777; font-size: 0.8rem; border-top: 1px solid #ddd; margin-top: 3rem;
-         padding-top: 0.8rem; }
-@page { margin: 15mm; }
-@media print { body { font-size: 10pt; } main { max-width: none; padding: 0; }
-               h2 { break-after: avoid; } .wide { overflow: visible; }
-               figure img { max-width: 88%; max-height: 175mm; }
-               table { font-size: 7.5pt; } th, td { padding: 0.15rem 0.3rem; } }
-"""
+FOLDER = Path(__file__).parent
+STYLE = (FOLDER / "page.css").read_text(encoding="utf-8")
+SCRIPT = (FOLDER / "page.js").read_text(encoding="utf-8")
 
 
 def title_of(run):
@@ -106,7 +73,7 @@ def captions(run, paper):
         "monitors": "<b>The run over time.</b> Every fluid step; shading and the names on top tell"
         " the phases, and the numbers the flow cases. Speeds, energies and imbalances are on"
         " logarithmic axes, without their zeros.",
-        "wall-forces": "<b>Force of the particles on each wall,</b> along the axis; positive"
+        "wall-forces": "<b>Forces of particles and fluid on each wall,</b> along the axis; positive"
         " presses down.",
         "particle-number": "<b>How many particles there are,</b> were fed and have left.",
         "probes": "<b>What the probes saw,</b> each at its point.",
@@ -178,12 +145,31 @@ def figures_of(names, figures, caption, count):
             lines.append(f'<p class="absent">{heading}: not shown; {escape(shown)}.</p>')
             continue
         count[0] += 1
-        alternative = name.replace("-", " ")
-        lines.append(
-            f'<figure id="{name}"><img alt="{alternative}" src="{shown.data_uri}">'
-            f"<figcaption>Figure {count[0]}. {caption[name]}</figcaption></figure>"
-        )
+        lines.append(figure(name, shown, f"Figure {count[0]}. {caption[name]}"))
     return lines
+
+
+def figure(name, shown, caption):
+    """A Rendered figure as HTML, with what the script shows of it under the pointer."""
+    svg = shown.svg.replace("<svg", f'<svg role="img" aria-label="{name.replace("-", " ")}"', 1)
+    # In a script, "</" would end it.
+    data = json.dumps(shown.hover, separators=(",", ":")).replace("</", "<\\/")
+    return (
+        f'<figure id="{name}">{svg}<figcaption>{caption}</figcaption>'
+        f'<script type="application/json" class="hover">{data}</script></figure>'
+    )
+
+
+def chooser(run):
+    """Buttons that leave one flow case alone in tables and figures; the script shows them."""
+    if len(run.cases) < 2:
+        return []
+    buttons = ['<button value="">all</button>']
+    buttons += [
+        f'<button value="{number}" title="{words.velocity_of(case)}">{number}</button>'
+        for number, case in ((case["number"], case) for case in run.cases)
+    ]
+    return [f'<div id="chooser" hidden>Flow case: {"".join(buttons)}</div>']
 
 
 def notices_of(run):
@@ -221,6 +207,7 @@ def page(run, paper, figures):
     body = [f"<h1>{title}</h1>", f'<p class="under">{escape(program_line(run))}</p>']
     body.append(f'<p class="summary">{escape(words.summary(run))}</p>')
     body += notices_of(run)
+    body += chooser(run)
     if run.has_flow():
         body += cases_section(run, paper)
     for heading, names in SECTIONS:
@@ -230,7 +217,7 @@ def page(run, paper, figures):
         if heading == "The moving bed":
             body.append(tables.means_over_time(run))
         body += figures_of(names, figures, caption, count)
-        if heading == "Deviation from Ergun":
+        if heading == "Deviation from Ergun" and words.wall_is_known(run):
             body.append(f"<p>{escape(words.what_is_left(run))}</p>")
             body.append(tables.deviation_in_parts(run))
     body.append(
@@ -247,5 +234,5 @@ def whole(title, body):
         '<meta name="viewport" content="width=device-width, initial-scale=1">\n'
         f"<title>{title}</title>\n<style>{STYLE}</style>\n</head>\n<body>\n<main>\n"
         + "\n".join(body)
-        + "\n</main>\n</body>\n</html>\n"
+        + f"\n</main>\n<script>\n{SCRIPT}</script>\n</body>\n</html>\n"
     )

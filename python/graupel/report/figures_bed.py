@@ -2,11 +2,15 @@
 
 import numpy as np
 
-from common import reference
-from common.style import BLACK, BLUE, GREEN, GREY, ORANGE, PURPLE, VERMILLION
-from common.style import MILLI, PERCENT, NothingToShow, colour_of_each, column, known
-from common.style import diamonds, need_cases, new_figure, note, of_cases, plot_cases
-from common.style import shade_papers_band, velocity_axis
+from . import reference
+from .style import BLACK, BLUE, GREEN, GREY, ORANGE, PURPLE, VERMILLION
+from .style import MILLI, PERCENT, NothingToShow, colour_of_each, column, known
+from .style import diamonds, legend_beside, need_cases, new_figure, note, of_case, of_cases
+from .style import plot_cases, shade_papers_band, velocity_axis
+
+
+# Of the axis of a height, over the height [-].
+LEAST_SPAN = 0.01
 
 
 def label_of(run, number):
@@ -28,25 +32,23 @@ def pressure_profile(run, paper):
     colours = colour_of_each(len(run.profiles))
     for colour, (number, table) in zip(colours, sorted(run.profiles.items())):
         z = table["z"] * MILLI
-        upper.plot(z, table["pressure"], color=colour, label=label_of(run, number))
-        upper.plot(z, table["ergun_pressure"], "--", color=colour, linewidth=1.0)
-        lower.plot(z, table["void_fraction"], color=colour, linewidth=1.1)
+        label, mark = label_of(run, number), {"gid": of_case(number)}
+        ergun = f"_Ergun, {label}"
+        upper.plot(z, table["pressure"], color=colour, label=label, **mark)
+        thin = {"color": colour, "linewidth": 1.0, **mark}
+        upper.plot(z, table["ergun_pressure"], "--", label=ergun, **thin)
+        lower.plot(z, table["void_fraction"], label=f"_{label}", **thin)
     upper.plot([], [], "--", color=GREY, linewidth=1.0, label="Ergun")
     height = run.number("bed", "height")
     if height is not None:
         for axes in (upper, lower):
             axes.axvline(height * MILLI, color=GREY, linestyle=":", linewidth=1.0)
-        top = (height * MILLI, 0.1)
-        note(lower, "top of the bed at rest", top, (-4, 0), GREY, 7.5, ha="right")
+        # Above the axes, where there is no curve.
+        at_top = {"xycoords": ("data", "axes fraction"), "ha": "center", "va": "bottom"}
+        note(upper, "top of the bed at rest", (height * MILLI, 1.0), (0, 2), GREY, 7.5, **at_top)
     upper.set_ylabel("pressure over outlet [Pa]")
     upper.set_ylim(bottom=min(0.0, upper.get_ylim()[0]))
-    upper.legend(
-        loc="upper right",
-        ncols=2 if len(run.profiles) > 8 else 1,
-        frameon=True,
-        framealpha=1.0,
-        edgecolor="white",
-    )
+    legend_beside(upper)
     lower.set_ylabel("void fraction [-]")
     lower.set_ylim(0.0, 1.05)
     lower.set_xlabel("height over the bottom z [mm]")
@@ -65,23 +67,23 @@ def pressure_drop(run, paper):
     smooth = np.linspace(0.0, 1.06 * last, 120)
     curve = reference.ergun_curve(run, smooth)
     if curve is not None:
-        axes.plot(smooth, curve, color=GREY, linewidth=1.2, label="Ergun, this bed at rest")
+        axes.plot(smooth, curve, color=GREY, linewidth=1.2, label="Ergun, this bed\nat rest")
     own = column(run.cases, "ergun_pressure_drop")
-    axes.plot(velocity, own, "_", color=BLACK, markersize=11, label="Ergun, bed of each case")
+    axes.plot(velocity, own, "_", color=BLACK, markersize=11, label="Ergun, bed of\neach case")
     if paper is not None:
-        table_1 = f"Ergun in the paper's Table 1 ({paper.scale}X)"
+        table_1 = f"Ergun in the paper's\nTable 1 ({paper.scale}X)"
         diamonds(axes, paper.velocity, paper.ergun, table_1, markersize=6.5)
     plot_cases(axes, run.cases, column(run.cases, "pressure_drop"), BLUE, "computed")
     weight = reference.weight_per_area(run)
     if weight is not None:
         axes.axhline(weight, color=PURPLE, linestyle="--", linewidth=1.1)
-        text = "weight of the bed over the cross-section"
-        note(axes, text, (0.0, weight), xycoords=("axes fraction", "data"))
+        label = "weight of the bed\nover the section"
+        axes.plot([], [], "--", color=PURPLE, linewidth=1.1, label=label)
     velocity_axis(axes)
     axes.set_xlim(0.0, 1.06 * last)
     axes.set_ylabel("pressure drop [Pa]")
     axes.set_ylim(bottom=0.0)
-    axes.legend(loc="lower right")
+    legend_beside(axes)
     return figure
 
 
@@ -119,8 +121,8 @@ def deviation(run, paper):
     need_cases(run.cases)
     curves = [
         ("deviation_from_ergun", BLUE, "o", "-", "whole bed"),
-        ("gradient_deviation_from_ergun", VERMILLION, "s", "-", "gradient over the middle half"),
-        ("wall_channelling_deviation", GREEN, "^", ":", "predicted from the radial void fraction"),
+        ("gradient_deviation_from_ergun", VERMILLION, "s", "-", "gradient over the\nmiddle half"),
+        ("wall_channelling_deviation", GREEN, "^", ":", "predicted from the\nradial void fraction"),
     ]
     values = [column(run.cases, key) * PERCENT for key, *_ in curves]
     if not any(known(array) for array in values):
@@ -129,7 +131,7 @@ def deviation(run, paper):
     axes = figure.subplots()
     limits = limits_of_deviation(run.cases, values, paper)
     if paper is not None:
-        shade_papers_band(axes, paper, f"the paper, {paper.scale}X: {paper.band_in_words}")
+        shade_papers_band(axes, paper, f"the paper, {paper.scale}X:\n{paper.band_in_words}")
     axes.axhline(0.0, color=GREY, linewidth=0.9)
     for array, (_, colour, marker, line, label) in zip(values, curves):
         if known(array):
@@ -140,7 +142,7 @@ def deviation(run, paper):
     velocity_axis(axes)
     axes.margins(x=0.08)
     axes.set_ylabel("deviation from Ergun [%]")
-    axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.15), ncols=2)
+    legend_beside(axes)
     return figure
 
 
@@ -158,7 +160,7 @@ def bottom_force(run, paper):
     axes.axhline(0.0, color=GREY, linewidth=0.9)
     velocity = column(run.cases, "superficial_velocity")
     if known(left):
-        axes.plot(velocity, left, "--", color=GREY, linewidth=1.2, label="weight less fluid force")
+        axes.plot(velocity, left, "--", color=GREY, linewidth=1.2, label="weight less fluid\nforce")
     supports = column(run.cases, "support_force")
     if known(supports):
         axes.plot(velocity, supports, "x", color=BLACK, markersize=6, label="all walls")
@@ -169,13 +171,13 @@ def bottom_force(run, paper):
     if known(wall):
         plot_cases(axes, run.cases, wall, ORANGE, "wall", marker="s")
     if paper is not None:
-        at_onset = f"bottom in the paper at onset ({paper.scale}X)"
+        at_onset = f"bottom in the paper\nat onset ({paper.scale}X)"
         diamonds(
             axes, [paper.onset_velocity], [paper.onset_bottom_force], at_onset, markersize=6.5
         )
     velocity_axis(axes)
     axes.set_ylabel("contact force along the axis [N]")
-    axes.legend()
+    legend_beside(axes)
     return figure
 
 
@@ -193,12 +195,22 @@ def bed_height(run, paper):
     left.set_ylabel("bed height [mm]")
     plot_cases(right, run.cases, rise, BLUE, "computed")
     if paper is not None:
-        at_onset = f"the paper at onset ({paper.scale}X)"
+        at_onset = f"the paper at\nonset ({paper.scale}X)"
         rise_there = [paper.onset_rise * MILLI]
         diamonds(right, [paper.onset_velocity], rise_there, at_onset, markersize=6.5)
     right.axhline(0.0, color=GREY, linewidth=0.9)
     right.set_ylabel("rise over the bed before the flow [mm]")
-    right.legend(loc="upper left")
-    for axes in (left, right):
+    if paper is not None:
+        legend_beside(right)
+    for axes, values in ((left, height), (right, rise)):
         velocity_axis(axes)
+        widen(axes, LEAST_SPAN * np.nanmax(height, initial=0.0))
     return figure
+
+
+def widen(axes, span):
+    """Makes the vertical axis at least so long: less than this is no change of the bed."""
+    low, high = axes.get_ylim()
+    if high - low < span:
+        middle = 0.5 * (low + high)
+        axes.set_ylim(middle - 0.5 * span, middle + 0.5 * span)

@@ -1,6 +1,8 @@
 """Numbers and findings as text."""
 
-from common import reference
+from pathlib import PurePath
+
+from . import reference
 
 NONE = "-"
 MINUS = "\u2212"
@@ -73,7 +75,10 @@ def the_bed(run):
             f" (scale {number(scale, '.3g')})"
         )
     vessel = run.number("bed", "vessel_diameter")
-    if vessel is not None:
+    mesh = run.parameters.get("Mesh/file")
+    if mesh:
+        text += f", in the vessel of {PurePath(mesh).name}"
+    elif vessel is not None:
         text += f", in a vessel {number(vessel, '.4g', 1e3, 'mm')} wide"
     if run.number("bed", "height") is None:
         return f"{text}. A height of the bed before the flow is not known."
@@ -176,6 +181,11 @@ def summary(run):
     """The run in one paragraph."""
     sentences = (the_bed(run), the_flow(run), the_onset(run), the_ledger(run))
     return " ".join(sentence for sentence in sentences if sentence)
+
+
+def wall_is_known(run):
+    """Whether a case knows what the looser packing at the wall explains."""
+    return any(case["wall_channelling_deviation"] is not None for case in run.cases)
 
 
 def what_is_left(run):

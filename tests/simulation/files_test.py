@@ -1,0 +1,195 @@
+"""What other programs read of a run: its files for ParaView, lists of particles, the report and
+a picture. Called with the path of the binary.
+"""
+
+import importlib.util
+import os
+import shutil
+import subprocess
+import unittest
+
+from runs import ROOT, Program, RunTest, main
+
+import numpy as np
+
+import graupel
+
+SHORT = ROOT / "prm" / "packed-bed" / "short.prm"
+# Of numbers in four bytes.
+SINGLE = 1e-6
+
+DUMP = """ITEM: TIMESTEP
+7000
+ITEM: NUMBER OF ATOMS
+3
+ITEM: BOX BOUNDS ff ff ff
+-0.01 0.01
+-0.01 0.01
+0 0.02
+ITEM: ATOMS id type x y z radius vx vy vz
+12 1 0.0033333333333333335 0.001 0.005 0.001 0 0 0
+5 1 -0.004 -0.0012345678901234567 0.01 0.0011 0 0 0
+40 1 0 0 0.015 0.0009 0 0 0
+"""
+
+
+def script(name, *arguments):
+    """The finished process of a script."""
+    return subprocess.run(
+        ["/usr/bin/python3", ROOT / "scripts" / name, *arguments], capture_output=True, text=True
+    )
+
+
+class ParaView(unittest.TestCase):
+    """The files of a short run on two ranks, on a mesh with two levels."""
+
+    @classmethod
+    def setUpClass(cls):
+        cls.test = RunTest()
+        cls.test.setUp()
+        cls.addClassCleanup(cls.test.doCleanups)
+        values = {
+            "Output/report": "false",
+            "Flow/superficial velocities": "0.5",
+            "Mesh adaption/initial passes": 1,
+            "Mesh adaption/surface threshold": 0.1,
+            "Mesh adaption/maximum levels": 1,
+        }
+        cls.run_of_two = cls.test.run_file(SHORT, values, ranks=2)
+        assert cls.run_of_two.status == 0, cls.run_of_two
+        cls.run_read = graupel.read_run(cls.run_of_two.directory)
+
+    def test_ids_are_whole_numbers_and_places_are_exact(self):
+        read = self.run_read.particles()
+        self.assertEqual(read.points.dtype, np.float64)
+        self.assertEqual(read.values["diameter"].dtype, np.float64)
+        self.assertEqual(read.values["id"].dtype, np.int64)
+        np.testing.assert_array_equal(np.sort(read.values["id"]), np.arange(150))
+        for name in ("type", "coordination_number", "wall_contacts"):
+            self.assertEqual(read.values[name].dtype, np.int32, name)
+        # As parameter files and lists count types.
+        self.assertEqual(set(read.values["type"]), {1})
+        # Not a number of four bytes.
+        self.assertTrue(np.all(read.values["diameter"] == 3.2e-3))
+        self.assertTrue(np.any(read.points != read.points.astype(np.float32)))
+
+    def test_contacts_are_those_of_the_monitors(self):
+        contacts, particles = self.run_read.contacts(), self.run_read.particles()
+        of_walls = contacts.values["with_wall"] == 1
+        self.assertEqual(contacts.values["with_wall"].dtype, np.int32)
+        # Each value at both ends of a line.
+        pairs = np.count_nonzero(~of_walls) // 2
+        self.assertEqual(2 * pairs, particles.values["coordination_number"].sum())
+        self.assertEqual(
+            np.count_nonzero(of_walls) // 2, particles.values["wall_contacts"].sum()
+        )
+        # What walls carry, along the axis.
+        lifted = contacts.values["force"][of_walls][::2, 2].sum()
+        carried = self.run_read.cases[-1]["support_force"]
+        self.assertGreater(carried, 0.01)
+        # The case's value is a mean of its last quarter.
+        self.assertAlmostEqual(lifted / carried, 1.0, delta=0.01)
+        distance = np.linalg.norm(contacts.points[::2] - contacts.points[1::2], axis=1)
+        ball = (contacts.values["with_wall"] == 0)[::2]
+        expected = 3.2e-3 - contacts.values["overlap"][::2]
+        np.testing.assert_allclose(distance[ball], expected[ball], rtol=1e-5)
+
+    def test_interstitial_velocity_is_flux_over_void_fraction(self):
+        values = self.run_read.fields().values
+        expected = values["flux"] / values["void_fraction"][:, None]
+        self.assertGreater(np.abs(values["flux"]).max(), 0.3)
+        self.assertLess(values["void_fraction"].min(), 0.6)
+        np.testing.assert_allclose(values["velocity"], expected, rtol=10 * SINGLE, atol=1e-7)
+
+    def test_cells_know_their_rank_and_level(self):
+        fields = self.run_read.fields()
+        self.assertEqual(set(fields.values["subdomain"]), {0.0, 1.0})
+        levels = fields.values["refinement_level"]
+        self.assertEqual(len(set(levels)), 2)
+        # A cell of the next level has an eighth of the volume, here measured by its box.
+        corners = fields.points[fields.connectivity].reshape(len(fields.offsets), 8, 3)
+        sizes = np.ptp(corners, axis=1)[:, 2]
+        of_cells = levels[fields.connectivity].reshape(-1, 8)[:, 0]
+        self.assertAlmostEqual(
+            sizes[of_cells == of_cells.min()].mean() / sizes[of_cells == of_cells.max()].mean(),
+            2.0, delta=1e-3,
+        )  # fmt: skip
+
+    def test_picture(self):
+        target = self.test.path / "bed.png"
+        done = script("render", self.run_of_two.directory, target)
+        if importlib.util.find_spec("vtkmodules") is None:
+            self.assertIn("apt-get install python3-vtk9", done.stderr)
+        elif "DISPLAY" not in os.environ and shutil.which("xvfb-run") is None:
+            self.assertIn("apt-get install xvfb", done.stderr)
+        else:
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertTrue(target.read_bytes().startswith(b"\x89PNG"))
+            self.assertGreater(target.stat().st_size, 20000, "an empty picture")
+
+
+class Lists(RunTest):
+    """Particles of another program."""
+
+    def test_a_dump_becomes_the_spheres_of_a_run(self):
+        dump, table = self.path / "a.dump", self.path / "a.csv"
+        dump.write_text(DUMP)
+        done = script("particles", dump, table)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        # Without gravity and flow they stay where they are.
+        values = {
+            "Particles/gravity": 0,
+            "Particles/scale": 1,
+            "Particles/size distribution": "list",
+            "Particles/size list": "1.8e-3: 1, 2e-3: 1, 2.2e-3: 1",
+            "Filling/method": "list",
+            "Filling/count": 0,
+            "Filling/file": table,
+            "Settling/kinetic energy": 1,
+            "Settling/speed": 10,
+            "Settling/interval": 0.01,
+            "Flow/superficial velocities": "",
+            "Output/report": "false",
+        }
+        run = self.run_file(SHORT, values)
+        self.assertEqual(run.status, 0, run)
+        given = graupel.read_particles(dump)
+        found = graupel.read_particles(run.directory)
+        order = np.argsort(given.position[:, 0]), np.argsort(found.position[:, 0])
+        for key in ("position", "diameter", "velocity", "type"):
+            np.testing.assert_array_equal(
+                getattr(given, key)[order[0]], getattr(found, key)[order[1]], key
+            )
+
+
+class Report(RunTest):
+    """What the program says of its report."""
+
+    def test_the_reference_is_in_the_summary(self):
+        run = self.run_file(SHORT, {"Output/report": "false"})
+        self.assertEqual(run.summary["reference"], "none")
+        self.assertNotIn("report.html", run.said)
+
+    def test_without_matplotlib_the_way_out_is_told(self):
+        broken = self.path / "broken"
+        broken.mkdir()
+        (broken / "matplotlib.py").write_text("raise ImportError('No module named matplotlib')\n")
+        environment = {**os.environ, "PYTHONPATH": str(broken)}
+        output = self.path / "o"
+        done = subprocess.run(
+            [Program.path, SHORT, "--set", "Filling/count=20", "--output", output],
+            capture_output=True, text=True, env=environment,
+        )  # fmt: skip
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertFalse((output / "report.html").exists())
+        self.assertNotIn("open report.html", done.stdout)
+        self.assertIn(f"Results are in {output}", done.stdout)
+        log = (output / "log.txt").read_text()
+        for text in (done.stderr, log):
+            self.assertIn("No report was made", text)
+            self.assertIn("apt-get install python3-matplotlib", text)
+            self.assertIn(f"scripts/report' '{output}'", text)
+
+
+if __name__ == "__main__":
+    main()
