@@ -136,6 +136,16 @@ class PackedBeds(ExampleTest):
         self.assert_within(run.case["gradient_deviation_from_ergun"], 0.0, 0.03, "from Ergun")
         return run
 
+    def test_a_drag_law_of_the_users_own(self):
+        # The expression is Ergun's: the law by its name gives the same, to round-off through
+        # some ten linear systems.
+        values = {"Flow/superficial velocities": 0.3}
+        own = self.finished("packed-bed/own-drag.prm", values)
+        law = {**values, "Coupling/scaling": "exact", "Coupling/drag law": "ergun"}
+        named = self.finished("packed-bed/own-drag.prm", law)
+        self.assert_close(own.case["pressure_drop"], named.case["pressure_drop"], 1e-9, "drop")
+        self.assert_momentum(own, AREA, 1.18415)
+
     def test_the_papers_scaled_bed(self):
         exact = self.expect_ergun("packed-bed/ricklick-2x.prm", {}, "0.402")
         self.assert_momentum(exact, AREA, 1.18415)
