@@ -108,6 +108,48 @@ class FluidisedBeds(ExampleTest):
         run = self.finished("fluidised-bed/liquid.prm", values)
         self.assertGreater(self.void_fraction(run, "center_of_mass"), 0.650 * 1.02)
 
+    def test_the_onset(self):
+        values = {
+            "Filling/count": 800,
+            "Geometry/height": 0.06,
+            "Flow/superficial velocities": "0.35, 0.7",
+            "Flow/duration": 0.3,
+        }
+        run = self.finished("fluidised-bed/onset.prm", values)
+        rests, lifted = run.summary["cases"]
+        self.assertIs(rests["fluidized"], False)
+        self.assert_within(rests["gradient_deviation_from_ergun"], 0.0, 0.03, "from Ergun")
+        # Its weight less the buoyancy over the section, but for what rubs at the wall while
+        # the bed still rises.
+        self.assertIs(lifted["fluidized"], True)
+        area = math.pi * 0.02**2 / 4
+        carried = lifted["weight"] * (1.0 - 1.2 / 1000.0) / area
+        self.assert_close(lifted["pressure_drop"], carried, 0.05, "drop of the lifted bed")
+
+    def test_a_bed_that_bubbles(self):
+        # A tenth of the spheres on cells twice as large, and a window long enough to see that
+        # all is written.
+        values = {
+            "Mesh/cell size": 5.5e-3,
+            "Filling/count": 1000,
+            "Flow/duration": 0.05,
+            "Averages/from": 0.02,
+            "Averages/to": 0.05,
+        }
+        run = self.finished("fluidised-bed/bubbling.prm", values)
+        self.assert_close(run.case["averaged_time"], 0.03, 1e-6, "window")
+        rows = run.rows("averages-planes-01.csv")
+        # Its bins hold the whole bed, which is some millimetres high.
+        held = sum(row["solid_fraction"] * row["volume"] for row in rows)
+        self.assert_close(held, run.bed["solid_volume"], 1e-3, "solid in the bins")
+        lines = run.rows("averages-lines-01.csv")
+        self.assertEqual(len(lines), 5 * 22)
+        # Bins of flat walls have their whole volume.
+        self.assert_close(lines[0]["volume"], 0.002 * 0.010 * 0.002, 1e-9, "volume of a bin")
+        # Above the bed the flux across the box is V; to the linear fields in the cells.
+        flux = [row["flux_z"] for row in lines if row["name"] == "velocity-35"]
+        self.assert_close(sum(flux) / len(flux), 0.6, 0.02, "flux above the bed")
+
 
 class PackedBeds(ExampleTest):
     """prm/packed-bed."""
@@ -271,34 +313,6 @@ class AnyFlow(ExampleTest):
         self.assert_close(run.case["superficial_velocity"], 3.0, 1e-6, "velocity")
         for key in ("bed_height", "deviation_from_ergun", "fluidized"):
             self.assertIsNone(run.case[key], key)
-
-
-class FluidisedBeds(ExampleTest):
-    """prm/fluidised-bed."""
-
-    def test_a_bed_that_bubbles(self):
-        # A tenth of the spheres on cells twice as large, and a window long enough to see that
-        # all is written.
-        values = {
-            "Mesh/cell size": 5.5e-3,
-            "Filling/count": 1000,
-            "Flow/duration": 0.05,
-            "Averages/from": 0.02,
-            "Averages/to": 0.05,
-        }
-        run = self.finished("fluidised-bed/bubbling.prm", values)
-        self.assert_close(run.case["averaged_time"], 0.03, 1e-6, "window")
-        rows = run.rows("averages-planes-01.csv")
-        # Its bins hold the whole bed, which is some millimetres high.
-        held = sum(row["solid_fraction"] * row["volume"] for row in rows)
-        self.assert_close(held, run.bed["solid_volume"], 1e-3, "solid in the bins")
-        lines = run.rows("averages-lines-01.csv")
-        self.assertEqual(len(lines), 5 * 22)
-        # Bins of flat walls have their whole volume.
-        self.assert_close(lines[0]["volume"], 0.002 * 0.010 * 0.002, 1e-9, "volume of a bin")
-        # Above the bed the flux across the box is V; to the linear fields in the cells.
-        flux = [row["flux_z"] for row in lines if row["name"] == "velocity-35"]
-        self.assert_close(sum(flux) / len(flux), 0.6, 0.02, "flux above the bed")
 
 
 class Studies(ExampleTest):
