@@ -39,6 +39,23 @@ def escaped(text):
     return re.sub(r"([\\`*_{}\[\]<>#|$])", r"\\\1", text)
 
 
+# "ergun: what it is", at the beginning or after a sentence.
+CHOICE = re.compile(
+    r"(?:^|(?<=[.;] ))([a-z][\w-]*(?: [a-z][\w-]*){0,2}(?: [A-Z](?:; [A-Z])*)?|[A-Z]): "
+)
+
+
+def with_choices(sentence):
+    """A sentence whose choices, two or more, become a list."""
+    before, *parts = CHOICE.split(sentence)
+    if len(parts) < 4:
+        return escaped(sentence)
+    lines = [escaped(before.strip()), ""] if before.strip() else []
+    for name, text in zip(parts[::2], parts[1::2]):
+        lines.append(f"- `{name}`: {escaped(text.strip().rstrip('.;'))}")
+    return "\n".join(lines)
+
+
 def signature(section, entries):
     """What of a section tells whether another one is the same."""
     return [(entry.name, entry.default, entry.meaning) for entry in entries[section]]
@@ -53,7 +70,7 @@ def text_of(parameter, level):
         f"({label_of(parameter.path)})=",
         f"{'#' * level} {parameter.name}",
         f"`{parameter.path}`",
-        escaped(parameter.sentence),
+        with_choices(parameter.sentence),
         "; ".join(facts) + ".",
     )
     return "\n\n".join(lines).replace(")=\n\n", ")=\n") + "\n"
