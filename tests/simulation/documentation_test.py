@@ -18,7 +18,6 @@ from common.parameters import parameters_of, read_parameters
 
 DOC = ROOT / "doc"
 MADE = ("generated",)  # what Sphinx makes
-# Of what is said by others, not of the project's own files.
 PAGES = sorted(
     file
     for file in [ROOT / "README.md", ROOT / "CHANGELOG.md", *DOC.rglob("*.md")]
@@ -35,6 +34,7 @@ CASE = re.compile(r"(?<![\w/.{-])[\w/-]+\.prm\b")
 UNWRITTEN = {"FILE.prm", "NAME.prm", "tests/cases/NAME.prm", "ts.prm", "parameters.prm"}
 # Targets of the build that a command may name.
 BUILT = re.compile(r"build/(?:graupel|tests/test_\w+|benchmarks/benchmark_\w+)\b")
+SET = re.compile(r'--set (?:"([^"]*)"|(\S+))')
 STARTS_FROM = re.compile(r"Filling/start from=(\S+)")
 
 
@@ -107,7 +107,7 @@ class Commands(unittest.TestCase):
                 if (arguments := run_of(command)) and "FILE.prm" not in command:
                     runs.setdefault(tuple(arguments), page)
         self.assertGreater(len(runs), 20)
-        beds = {found.group(1) for run in runs for word in run if (found := STARTS_FROM.search(word))}
+        beds = {bed for run in runs for word in run for bed in STARTS_FROM.findall(word)}
         for bed in beds:
             self.make_bed(bed, runs)
 
@@ -138,7 +138,8 @@ class Names(unittest.TestCase):
         self.assertGreater(named, 100)
 
     def test_parameter_files_exist(self):
-        there = [str(file) for folder in ("prm", "tests", "benchmarks") for file in (ROOT / folder).rglob("*.prm")]
+        folders = [ROOT / name for name in ("prm", "tests", "benchmarks")]
+        there = [str(file) for folder in folders for file in folder.rglob("*.prm")]
         for page in PAGES:
             for name in set(CASE.findall(text_of(page))) - UNWRITTEN:
                 with self.subTest(page=page.name, file=name):
@@ -163,7 +164,7 @@ class Names(unittest.TestCase):
                 continue  # speaks of what has been
             for code in CODE.findall(text_of(page)):
                 code = " ".join(code.split())
-                words = [found for pair in re.findall(r'--set (?:"([^"]*)"|(\S+))', code) for found in pair if found]
+                words = ["".join(pair) for pair in SET.findall(code)]
                 for word in words or [code]:
                     path = re.split(r"\s*=", word)[0].strip()
                     section, _, name = path.rpartition("/")
@@ -234,7 +235,8 @@ class Patches(unittest.TestCase):
     """The worked examples of doc/extending.md."""
 
     def test_they_apply(self):
-        patches = [block for kind, block in FENCE.findall(text_of(DOC / "extending.md")) if kind == "diff"]
+        blocks = FENCE.findall(text_of(DOC / "extending.md"))
+        patches = [block for kind, block in blocks if kind == "diff"]
         self.assertEqual(len(patches), 5)
         if not shutil.which("git"):
             self.fail("this needs git")

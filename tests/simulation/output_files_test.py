@@ -88,7 +88,8 @@ class Documented(RunTest):
     def keys_of(self, value, path=()):
         """Paths of the values in summary.json, the cases as one."""
         if isinstance(value, dict):
-            return [key for name, part in value.items() for key in self.keys_of(part, (*path, name))]
+            parts = (self.keys_of(part, (*path, name)) for name, part in value.items())
+            return [key for keys in parts for key in keys]
         return [".".join(path)]
 
     def documented_keys(self):
