@@ -25,8 +25,8 @@ html_show_sourcelink = False
 html_copy_source = False
 
 # KaTeX in the place of MathJax, from Debian's package: pages read without a network.
-html_static_path = ["/usr/share/javascript/katex"]
-html_css_files = ["katex.min.css"]
+html_static_path = ["/usr/share/javascript/katex", "pages.css"]
+html_css_files = ["katex.min.css", "pages.css"]
 html_js_files = ["katex.min.js"]
 mathjax_path = "contrib/auto-render.js"
 mathjax_options = {"defer": "defer", "onload": "renderMathInElement(document.body)"}
