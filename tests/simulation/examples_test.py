@@ -110,21 +110,21 @@ class FluidisedBeds(ExampleTest):
 
     def test_the_onset(self):
         values = {
-            "Filling/count": 800,
-            "Geometry/height": 0.06,
+            "Filling/count": 500,
+            "Geometry/height": 0.04,
+            "Mesh/cell size": 2e-3,
             "Flow/superficial velocities": "0.35, 0.7",
-            "Flow/duration": 0.3,
+            "Flow/duration": 0.2,
         }
         run = self.finished("fluidised-bed/onset.prm", values)
         rests, lifted = run.summary["cases"]
         self.assertIs(rests["fluidized"], False)
-        self.assert_within(rests["gradient_deviation_from_ergun"], 0.0, 0.03, "from Ergun")
-        # Its weight less the buoyancy over the section, but for what rubs at the wall while
-        # the bed still rises.
+        # Six spheres high: the ends reach into the middle half.
+        self.assert_within(rests["gradient_deviation_from_ergun"], 0.0, 0.08, "from Ergun")
+        # Weight less buoyancy over the section, but for how the bed heaves in so short a time.
         self.assertIs(lifted["fluidized"], True)
-        area = math.pi * 0.02**2 / 4
-        carried = lifted["weight"] * (1.0 - 1.2 / 1000.0) / area
-        self.assert_close(lifted["pressure_drop"], carried, 0.05, "drop of the lifted bed")
+        carried = lifted["weight"] * (1.0 - 1.2 / 1000.0) / (math.pi * 0.02**2 / 4)
+        self.assert_close(lifted["pressure_drop"], carried, 0.1, "drop of the lifted bed")
 
     def test_a_bed_that_bubbles(self):
         # A tenth of the spheres on cells twice as large, and a window long enough to see that
