@@ -18,6 +18,7 @@ extensions = ["myst_parser", "sphinx.ext.mathjax"]
 myst_enable_extensions = ["dollarmath"]
 myst_heading_anchors = 4
 exclude_patterns = []
+highlight_language = "none"
 html_theme = "furo"
 html_title = "Graupel"
 html_show_copyright = False
