@@ -107,6 +107,48 @@ class FluidisedBeds(ExampleTest):
         run = self.finished("fluidised-bed/liquid.prm", values)
         self.assertGreater(self.void_fraction(run, "center_of_mass"), 0.650 * 1.02)
 
+    def test_the_onset(self):
+        values = {
+            "Filling/count": 500,
+            "Geometry/height": 0.04,
+            "Mesh/cell size": 2e-3,
+            "Flow/superficial velocities": "0.35, 0.7",
+            "Flow/duration": 0.2,
+        }
+        run = self.finished("fluidised-bed/onset.prm", values)
+        rests, lifted = run.summary["cases"]
+        self.assertIs(rests["fluidized"], False)
+        # Six spheres high: the ends reach into the middle half.
+        self.assert_within(rests["gradient_deviation_from_ergun"], 0.0, 0.08, "from Ergun")
+        # Weight less buoyancy over the section, but for how the bed heaves in so short a time.
+        self.assertIs(lifted["fluidized"], True)
+        carried = lifted["weight"] * (1.0 - 1.2 / 1000.0) / (math.pi * 0.02**2 / 4)
+        self.assert_close(lifted["pressure_drop"], carried, 0.1, "drop of the lifted bed")
+
+    def test_a_bed_that_bubbles(self):
+        # A tenth of the spheres on cells twice as large, and a window long enough to see that
+        # all is written.
+        values = {
+            "Mesh/cell size": 5.5e-3,
+            "Filling/count": 1000,
+            "Flow/duration": 0.05,
+            "Averages/from": 0.02,
+            "Averages/to": 0.05,
+        }
+        run = self.finished("fluidised-bed/bubbling.prm", values)
+        self.assert_close(run.case["averaged_time"], 0.03, 1e-6, "window")
+        rows = run.rows("averages-planes-01.csv")
+        # Its bins hold the whole bed, which is some millimetres high.
+        held = sum(row["solid_fraction"] * row["volume"] for row in rows)
+        self.assert_close(held, run.bed["solid_volume"], 1e-3, "solid in the bins")
+        lines = run.rows("averages-lines-01.csv")
+        self.assertEqual(len(lines), 5 * 22)
+        # Bins of flat walls have their whole volume.
+        self.assert_close(lines[0]["volume"], 0.002 * 0.010 * 0.002, 1e-9, "volume of a bin")
+        # Above the bed the flux across the box is V; to the linear fields in the cells.
+        flux = [row["flux_z"] for row in lines if row["name"] == "velocity-35"]
+        self.assert_close(sum(flux) / len(flux), 0.6, 0.02, "flux above the bed")
+
 
 class PackedBeds(ExampleTest):
     """prm/packed-bed."""
@@ -134,6 +176,16 @@ class PackedBeds(ExampleTest):
         # filter reaches beyond the surface, would be several per cent of it.
         self.assert_within(run.case["gradient_deviation_from_ergun"], 0.0, 0.03, "from Ergun")
         return run
+
+    def test_a_drag_law_of_the_users_own(self):
+        # The expression is Ergun's: the law by its name gives the same, to round-off through
+        # some ten linear systems.
+        values = {"Flow/superficial velocities": 0.3}
+        own = self.finished("packed-bed/own-drag.prm", values)
+        law = {**values, "Coupling/scaling": "exact", "Coupling/drag law": "ergun"}
+        named = self.finished("packed-bed/own-drag.prm", law)
+        self.assert_close(own.case["pressure_drop"], named.case["pressure_drop"], 1e-9, "drop")
+        self.assertGreater(own.case["pressure_drop"], 1.0)
 
     def test_the_papers_scaled_bed(self):
         exact = self.expect_ergun("packed-bed/ricklick-2x.prm", {}, "0.402")
@@ -260,34 +312,6 @@ class AnyFlow(ExampleTest):
         self.assert_close(run.case["superficial_velocity"], 3.0, 1e-6, "velocity")
         for key in ("bed_height", "deviation_from_ergun", "fluidized"):
             self.assertIsNone(run.case[key], key)
-
-
-class FluidisedBeds(ExampleTest):
-    """prm/fluidised-bed."""
-
-    def test_a_bed_that_bubbles(self):
-        # A tenth of the spheres on cells twice as large, and a window long enough to see that
-        # all is written.
-        values = {
-            "Mesh/cell size": 5.5e-3,
-            "Filling/count": 1000,
-            "Flow/duration": 0.05,
-            "Averages/from": 0.02,
-            "Averages/to": 0.05,
-        }
-        run = self.finished("fluidised-bed/bubbling.prm", values)
-        self.assert_close(run.case["averaged_time"], 0.03, 1e-6, "window")
-        rows = run.rows("averages-planes-01.csv")
-        # Its bins hold the whole bed, which is some millimetres high.
-        held = sum(row["solid_fraction"] * row["volume"] for row in rows)
-        self.assert_close(held, run.bed["solid_volume"], 1e-3, "solid in the bins")
-        lines = run.rows("averages-lines-01.csv")
-        self.assertEqual(len(lines), 5 * 22)
-        # Bins of flat walls have their whole volume.
-        self.assert_close(lines[0]["volume"], 0.002 * 0.010 * 0.002, 1e-9, "volume of a bin")
-        # Above the bed the flux across the box is V; to the linear fields in the cells.
-        flux = [row["flux_z"] for row in lines if row["name"] == "velocity-35"]
-        self.assert_close(sum(flux) / len(flux), 0.6, 0.02, "flux above the bed")
 
 
 class Studies(ExampleTest):
