@@ -15,6 +15,8 @@ from common.program import environment
 PATIENCE, MORE = 5.0, 120.0
 # What building may take [s].
 BUILD = 7200.0
+# What a process may take of memory and write to a file, as a mutant may do so without end [bytes].
+MEMORY, FILE = 8 * 2**30, 2 * 2**30
 # The first case that fails ends a test; and ccache, which knows the file without the mutant, must
 # not refuse what is compiled with a header compiled before.
 ENVIRONMENT = {"GTEST_FAIL_FAST": "1", "CCACHE_SLOPPINESS": "pch_defines,time_macros"}
@@ -41,17 +43,22 @@ class Trial:
 
     def update(self):
         """Takes over what is new; what is equal keeps its time, so that it is not built again."""
-        listed = subprocess.run(
+        found = subprocess.run(
             ["git", "ls-files", "-z", "--cached", "--others", "--exclude-standard"],
             cwd=self.root, capture_output=True, text=True, check=True,
         ).stdout  # fmt: skip
-        for name in filter(None, listed.split("\0")):
+        listed = {name for name in found.split("\0") if (self.root / name).is_file()}
+        for name in sorted(listed):
             here, there = self.root / name, self.tree / name
-            if not here.is_file() or there.is_file() and here.read_bytes() == there.read_bytes():
+            if there.is_file() and here.read_bytes() == there.read_bytes():
                 continue
             there.parent.mkdir(parents=True, exist_ok=True)
             shutil.copyfile(here, there)
             shutil.copymode(here, there)
+        for folder in ("source", "include", "tests"):
+            for file in (self.tree / folder).rglob("*"):
+                if file.is_file() and str(file.relative_to(self.tree)) not in listed:
+                    file.unlink()
         self.log.parent.mkdir(exist_ok=True)
         if not (self.tree / "build" / "build.ninja").exists():
             if self.run(["cmake", "--preset", "release"], BUILD) != 0:
@@ -64,7 +71,8 @@ class Trial:
         name, value = mark.split("=")
         with open(self.log, "w", encoding="utf-8") as log:
             process = subprocess.Popen(
-                command, cwd=self.tree, stdin=subprocess.DEVNULL, stdout=log, stderr=log,
+                ["prlimit", f"--as={MEMORY}", f"--fsize={FILE}", *command], cwd=self.tree,
+                stdin=subprocess.DEVNULL, stdout=log, stderr=log,
                 env=environment() | {name: value} | ENVIRONMENT,
             )  # fmt: skip
             try:
