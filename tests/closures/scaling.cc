@@ -190,6 +190,8 @@ TEST(Scaling, BadExpressionIsRefusedBeforeTheRun)
   expect_contains(complaint("s*Cd - 5"), "Re = ");
   expect_contains(complaint("s*Cd - 5"), "alpha = ");
   expect_contains(complaint("Cd/(s-2)"), "inf");
+  // Wrong only at rest.
+  expect_contains(complaint("Re < 1e-4 ? 0 - 1 : Cd"), "Re = ");
   expect_contains(complaint("0/0"), "nan");
   std::cout << complaint("s*cd") << '\n' << complaint("s*Cd - 5") << std::endl;
   // What is not in use cannot be wrong.
@@ -243,8 +245,10 @@ TEST(Scaling, ParametersAreReadAndHaveUnits)
   file.set("Coupling/scaling = expression");
   file.set("Coupling/scaling expression = s*Cd");
   file.set("Fluid/density = 1000");
+  file.set("Fluid/viscosity = 1e-3");
   EXPECT_EQ(parameters.law, "wen-yu");
   EXPECT_EQ(parameters.scaling, "expression");
   EXPECT_EQ(parameters.expression, "s*Cd");
   EXPECT_EQ(fluid.density, 1000.);
+  EXPECT_EQ(fluid.viscosity, 1e-3);
 }

@@ -114,7 +114,7 @@ TEST(SphereForces, MeisFactorIsSaffmansInSlowFlowAndHisFitsBeyond)
   EXPECT_NEAR(saffman_mei_lift(0., 0.), 1.615, round_off);
   // b = Re_w / (2 Re) grows without bound as Re falls, and its part is b^1/2 Re / 10.
   EXPECT_NEAR(saffman_mei_lift(1e-10, 1e-3), 1.615, 1e-4);
-  for (const double reynolds : {0.3, 5., 39., 41., 90.})
+  for (const double reynolds : {0.3, 5., 39., 40., 41., 90.})
     for (const double b : {0.005, 0.1, 0.4})
       {
         const double slow = (1. - 0.3314 * std::sqrt(b)) * std::exp(-reynolds / 10.) +
@@ -147,8 +147,10 @@ TEST(SphereForces, RotationalDragIsStokesAndDennis)
 {
   // Steps that are short beside the time of the decay: the torque itself.
   const double a = 0.5 * d, inertia = 0.4 * 2500. * volume(d) * a * a, step = 1e-9;
-  for (const auto &[name, s] :
-       {std::pair("rubinow-keller", 3.), {"dennis", 3.}, {"dennis", 400.}})
+  for (const auto &[name, s] : {std::pair("rubinow-keller", 3.),
+                                {"dennis", 3.},
+                                {"dennis", 50.},
+                                {"dennis", 400.}})
     {
       const Vector spin({0., -0.6 * s, 0.8 * s});
       const double re = water.density * d * d * s / water.viscosity;

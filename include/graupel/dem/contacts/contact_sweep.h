@@ -207,6 +207,14 @@ namespace graupel
     void begin_pairs(const ParticleArrays &particles, VerletList &list);
     void begin_walls(const ParticleArrays &particles, const std::vector<Wall> &walls);
 
+    // All but surfaces; a unit of its own for each law, see contact_loops.h.
+    template <class NormalLaw>
+    void sweep_by(ParticleArrays          &particles,
+                  VerletList              &list,
+                  const std::vector<Wall> &walls,
+                  const Materials         &materials,
+                  const double             dt);
+
     template <class NormalLaw, class RollingLaw>
     void sweep_pairs(ContactList        &contacts,
                      ParticleArrays     &particles,

@@ -1,0 +1,10 @@
+#include <graupel/dem/contacts/contact_loops.h>
+
+namespace graupel
+{
+  template void ContactSweep::sweep_by<LinearSpring>(ParticleArrays          &particles,
+                                                     VerletList              &list,
+                                                     const std::vector<Wall> &walls,
+                                                     const Materials         &materials,
+                                                     const double             dt);
+} // namespace graupel
