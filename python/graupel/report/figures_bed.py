@@ -64,6 +64,8 @@ def pressure_drop(run, paper):
     axes = figure.subplots()
     velocity = column(run.cases, "superficial_velocity")
     last = np.nanmax(velocity)
+    if paper is not None:
+        last = max(last, paper.onset_velocity)
     smooth = np.linspace(0.0, 1.06 * last, 120)
     curve = reference.ergun_curve(run, smooth)
     if curve is not None:
