@@ -31,7 +31,7 @@ EVERYTHING = {
 # What a study writes.
 OF_STUDIES = {"study.csv", "level-N/"}
 # Figures that need a wall that moves, or particles that come or go.
-FIGURES_ELSEWHERE = {"wall-forces.png", "particle-number.png"}
+FIGURES_ELSEWHERE = {"particle-number.png"}
 CODE = re.compile(r"`([^`]+)`")
 
 

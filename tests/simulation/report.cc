@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <fstream>
 #include <sstream>
+#include <unistd.h>
 
 using namespace graupel;
 
@@ -13,8 +14,9 @@ using namespace graupel;
 // later.
 TEST(Report, FailureIsToldWithTheWayOut)
 {
-  const auto directory =
-    std::filesystem::path(testing::TempDir()) / "graupel-report-test";
+  // As any rank of several, each in a folder of its own.
+  const auto directory = std::filesystem::path(testing::TempDir()) /
+                         ("graupel-report-test-" + std::to_string(::getpid()));
   std::filesystem::create_directories(directory);
   const auto failing = directory / "failing.py";
   std::ofstream(failing) << "import sys\nsys.exit(1)\n";
