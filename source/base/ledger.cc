@@ -1,5 +1,7 @@
 #include <graupel/base/ledger.h>
 
+#include <array>
+#include <cmath>
 #include <stdexcept>
 
 namespace graupel

@@ -1,6 +1,7 @@
 #include <graupel/base/progress.h>
 
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
