@@ -1,5 +1,6 @@
-"""The parameters of the program, from what graupel --print-parameters prints."""
+"""The parameters of the program, from what graupel --print-parameters=json prints."""
 
+import json
 import re
 import subprocess
 from dataclasses import dataclass
@@ -36,31 +37,22 @@ class Parameter:
         return UNIT.sub(".", self.meaning)
 
 
-def read_parameters(text):
-    """All parameters in the text that the program prints, in its order."""
-    parameters, sections, comment = [], [], []
-    for line in map(str.strip, text.splitlines()):
-        if line.startswith("#"):
-            comment.append(line[1:].strip())
-            continue
-        if line.startswith("subsection "):
-            sections.append(line[len("subsection ") :])
-        elif line == "end":
-            sections.pop()
-        elif line.startswith("set "):
-            name, default = line[len("set ") :].split("=", 1)
-            meaning = " ".join(comment)
-            parameters.append(
-                Parameter("/".join(sections), name.strip(), default.strip(), meaning)
-            )
-        comment = []
+def read_parameters(tree, section=""):
+    """All parameters in what the program prints as JSON, in its order."""
+    parameters = []
+    for name, entry in tree.items():
+        if "documentation" in entry:
+            meaning = " ".join(entry["documentation"].split())
+            parameters.append(Parameter(section, name, entry["value"], meaning))
+        else:
+            parameters += read_parameters(entry, f"{section}/{name}" if section else name)
     return parameters
 
 
 def parameters_of(program):
     """All parameters of a binary."""
     printed = subprocess.run(
-        [str(program), "--print-parameters"],
+        [str(program), "--print-parameters=json"],
         env=environment(), capture_output=True, text=True, check=True,
     ).stdout  # fmt: skip
-    return read_parameters(printed)
+    return read_parameters(json.loads(printed))

@@ -22,6 +22,9 @@ namespace graupel
       throw InputError("", origin + ": " + reason);
     }
 
+    // The file that the user named, in messages.
+    constexpr const char *this_file = "this parameter file";
+
     std::string
     in_quotes(const std::string &text)
     {
@@ -126,9 +129,13 @@ namespace graupel
              (value.empty() || value.back() != '\\');
     }
 
-    // Looked at before it is opened: /dev/zero never ends, a pipe may never begin.
+    // The file, which is @p what at @p where for the user. Looked at before it is opened:
+    // /dev/zero never ends, a pipe may never begin.
     std::ifstream
-    opened(const std::string &file_name, const bool may_be_pipe)
+    opened(const std::string &file_name,
+           const bool         may_be_pipe,
+           const std::string &where,
+           const std::string &what)
     {
       std::error_code none;
       const auto      kind = std::filesystem::status(file_name, none).type();
@@ -136,6 +143,8 @@ namespace graupel
       if (kind == std::filesystem::file_type::regular ||
           (kind == std::filesystem::file_type::fifo && may_be_pipe))
         stream.open(file_name);
+      if (!stream.is_open())
+        refuse(where, "cannot read " + what + "; is the path right?");
       return stream;
     }
 
@@ -160,13 +169,10 @@ namespace graupel
       read_file(const std::string &file_name, const std::string &asked_by)
       {
         const std::string where = asked_by.empty() ? file_name : asked_by;
-        const std::string what  = asked_by.empty()
-                                    ? "this parameter file"
-                                    : "the included file " + in_quotes(file_name);
+        const std::string what =
+          asked_by.empty() ? this_file : "the included file " + in_quotes(file_name);
 
-        std::ifstream stream = opened(file_name, asked_by.empty());
-        if (!stream.is_open())
-          refuse(where, "cannot read " + what + "; is the path right?");
+        std::ifstream stream = opened(file_name, asked_by.empty(), where, what);
 
         // By another path (a link, "./") it is still the same file.
         const auto is_the_same = [&](const std::string &open) {
@@ -342,9 +348,7 @@ namespace graupel
   void
   ParameterFile::read_tree(const std::string &file_name, const bool is_json)
   {
-    std::ifstream stream = opened(file_name, true);
-    if (!stream.is_open())
-      refuse(file_name, "cannot read this parameter file; is the path right?");
+    std::ifstream stream = opened(file_name, true, file_name, this_file);
     try
       {
         if (is_json)

@@ -1,3 +1,4 @@
+#include <graupel/base/even_share.h>
 #include <graupel/fluid/flow_matrix.h>
 
 #include <deal.II/dofs/dof_tools.h>
@@ -83,8 +84,7 @@ namespace graupel
     // All numbers of the ranks' blocks one behind another, with a block that counts for
     // nothing at the end of each rank's.
     const std::uint64_t n_own = block_size * (column_nodes.size() + std::uint64_t(1));
-    std::uint64_t       begin = 0;
-    MPI_Exscan(&n_own, &begin, 1, MPI_UINT64_T, MPI_SUM, communicator);
+    const std::uint64_t begin = on_lower_ranks(n_own, communicator);
     const std::uint64_t n_all = dealii::Utilities::MPI::sum(n_own, communicator);
     AssertThrow(n_all <= std::numeric_limits<Number>::max(),
                 dealii::ExcMessage(

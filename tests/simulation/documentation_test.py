@@ -196,7 +196,8 @@ class Names(unittest.TestCase):
         self.assertGreater(named, 50)
 
     def test_a_misspelt_parameter_is_seen(self):
-        read = read_parameters("subsection A\n  # What it is [m].\n  set b c = 1\nend\n")
+        entry = {"value": "1", "default_value": "1", "documentation": "What it is [m]."}
+        read = read_parameters({"A": {"b c": entry}})
         self.assertEqual([(one.path, one.unit, one.default) for one in read], [("A/b c", "m", "1")])
 
 

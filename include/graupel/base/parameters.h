@@ -64,9 +64,9 @@ namespace graupel
 
     /**
      * Reads a whole file; one whose name ends in .json or .xml as deal.II writes these
-     * (values by section and name, in its long or its short form). Throws InputError for an unknown section or entry
-     * (naming the nearest known one), for a value that does not fit its
-     * entry's pattern, and for a file that cannot be read (or is no file, as
+     * (values by section and name, in its long or its short form). Throws InputError for
+     * an unknown section or entry (naming the nearest known one), for a value that does
+     * not fit its entry's pattern, and for a file that cannot be read (or is no file, as
      * /dev/zero), that includes itself or is not closed.
      */
     void read(const std::string &file_name);

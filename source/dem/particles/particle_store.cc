@@ -9,7 +9,6 @@
 #include <boost/serialization/vector.hpp>
 
 #include <limits>
-#include <numeric>
 #include <sstream>
 
 namespace graupel
@@ -459,9 +458,7 @@ namespace graupel
     rearrange(particles.external_force, old_row);
     rearrange(particles.external_torque, old_row);
     particles.n_owned = n;
-    row_of_label.resize(n);
-    std::iota(row_of_label.begin(), row_of_label.end(), 0u);
-    label_of_row = row_of_label;
+    row_of_label = label_of_row = same_rows(n);
     for (const auto &[rank, delivery] : received)
       {
         for (std::size_t k = 0; k < delivery.parcels.size(); ++k)

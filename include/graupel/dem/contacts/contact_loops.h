@@ -81,6 +81,19 @@ namespace graupel
       return std::experimental::static_simd_cast<WholeLanes>(
         select(alive, quanta, Lanes(0.)));
     }
+
+    // The time step, and of contacts that began within it only the part since then.
+    [[gnu::always_inline]] inline Lanes
+    steps_in_contact(const Contact<Lanes> &contact,
+                     const ContactList    &contacts,
+                     const std::size_t     first_of_block,
+                     const double          dt)
+    {
+      const auto fresh = lane_numbers() + static_cast<double>(first_of_block) >=
+                         Lanes(1. * contacts.first_fresh());
+      return some(fresh) ? select(fresh, step_in_contact(contact, dt), Lanes(dt))
+                         : Lanes(dt);
+    }
   } // namespace internal
 
   // For the few contacts that end or fail; the loops need their registers themselves.
@@ -154,11 +167,7 @@ namespace graupel
         contact.drift = i.drift - j.drift +
                         cross(a_i * i.spin_drift + a_j * j.spin_drift, contact.normal);
         contact.spin_drift = i.spin_drift - j.spin_drift;
-        contact.step       = dt;
-        const auto fresh   = lane_numbers() + static_cast<double>(b * n_lanes) >=
-                           Lanes(1. * contacts.first_fresh());
-        if (some(fresh))
-          contact.step = select(fresh, step_in_contact(contact, dt), contact.step);
+        contact.step       = steps_in_contact(contact, contacts, b * n_lanes, dt);
 
         Springs<Lanes> springs = load_springs(block);
         const auto     alive =
@@ -248,11 +257,7 @@ namespace graupel
         Springs<Lanes>      springs = load_springs(block);
         if (step.turns)
           turn_with_wall(step, place, i.drift, dt, contact, springs);
-        contact.step     = dt;
-        const auto fresh = lane_numbers() + static_cast<double>(b * n_lanes) >=
-                           Lanes(1. * contacts.first_fresh());
-        if (some(fresh))
-          contact.step = select(fresh, step_in_contact(contact, dt), contact.step);
+        contact.step = steps_in_contact(contact, contacts, b * n_lanes, dt);
 
         const auto alive =
           here && contact.overlap > NormalLaw::release_overlap(material, contact.radius);
