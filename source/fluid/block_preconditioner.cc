@@ -4,15 +4,18 @@ namespace graupel
 {
   BlockPreconditioner::BlockPreconditioner(const NodeBlockMatrix &system)
     : system(system)
-    , schur_inverse(system)
+    , diffusion_inverse(system)
   {
+    system.initialize_values(values);
   }
 
   void
-  BlockPreconditioner::refresh(const dealii::TrilinosWrappers::SparseMatrix &schur)
+  BlockPreconditioner::refresh(const dealii::TrilinosWrappers::SparseMatrix &diffusion,
+                               const NodalVector                            &of_grad_div)
   {
     flux_inverse.refresh(system);
-    schur_inverse.refresh(schur);
+    diffusion_inverse.refresh(diffusion);
+    this->of_grad_div.assign(of_grad_div.begin(), of_grad_div.begin() + system.n_rows());
   }
 
   void
@@ -20,8 +23,20 @@ namespace graupel
                              NodeBlockVector       &product,
                              const NodeBlockVector &b) const
   {
-    schur_inverse.vmult(x, b);
-    system.multiply_pressure(product, x);
-    flux_inverse.solve(x, b, product);
+    const auto take = [&](const unsigned int unknown) {
+      for (unsigned int row = 0; row < system.n_rows(); ++row)
+        x.local_element(4 * row + unknown) = values.local_element(row);
+      system.add_product(product, values, unknown);
+    };
+    product = 0.f;
+    diffusion_inverse.vmult(values, b);
+    for (unsigned int row = 0; row < system.n_rows(); ++row)
+      values.local_element(row) += of_grad_div[row] * b.local_element(4 * row + 3);
+    take(3);
+    for (unsigned int component = 0; component < 3; ++component)
+      {
+        flux_inverse.solve(values, b, product, component);
+        take(component);
+      }
   }
 } // namespace graupel

@@ -2,6 +2,13 @@
 
 namespace graupel
 {
+  namespace
+  {
+    // What the time that the flow takes to cross a cell counts for in the resistance to a
+    // gradient of the pressure; by trial, of 0 to 2 [-].
+    constexpr double convection_as_resistance = 0.1;
+  } // namespace
+
   FlowCoefficients
   FlowSolver::coefficients() const
   {
@@ -219,11 +226,13 @@ namespace graupel
   FlowSolver::assemble_schur(const Medium &medium)
   {
     schur = 0.;
+    of_grad_div.reinit(nodes.measure());
     dealii::FullMatrix<double>                   local(nodes_per_cell, nodes_per_cell);
+    dealii::Vector<double>                       local_grad_div(nodes_per_cell);
     std::vector<dealii::types::global_dof_index> indices(nodes_per_cell);
     std::vector<double>                          conductivity(space.n_cells());
 
-    const auto distribute_nodes = [&](const unsigned int cell) {
+    const auto distribute = [&](const unsigned int cell) {
       for (unsigned int a = 0; a < nodes_per_cell; ++a)
         indices[a] =
           nodes.measure().get_partitioner()->local_to_global(space.cell_nodes[cell][a]);
@@ -236,28 +245,38 @@ namespace graupel
     for (unsigned int cell = 0; cell < space.n_cells(); ++cell)
       {
         const CellState state = gather(cell, medium);
-        double          alpha = 0., resistance = 0., speed = 0., of_solids = 0.;
+        double alpha = 0., share = 0., resistance = 0., speed = 0., of_solids = 0.;
         for (unsigned int a = 0; a < nodes_per_cell; ++a)
           {
-            alpha +=
+            alpha += state.void_fraction[a] / nodes_per_cell;
+            share +=
               state.pressure_share[a] * (1. + state.solids_by_flux[a]) / nodes_per_cell;
             of_solids += state.solids_by_gradient[a] / nodes_per_cell;
             resistance += state.resistance[a] / nodes_per_cell;
             speed += std::hypot(state.flux[0][a], state.flux[1][a], state.flux[2][a]) /
                      state.void_fraction[a] / nodes_per_cell;
           }
-        const double reaction = density * (scheme.now + 2. * speed / state.size) +
-                                resistance + viscosity / (state.size * state.size);
-        conductivity[cell] = alpha / reaction + of_solids;
+        const double reaction =
+          density * (scheme.now + convection_as_resistance * speed / state.size) +
+          resistance + viscosity / (state.size * state.size);
+        conductivity[cell] = share / reaction + of_solids;
+        const double grad_div =
+          parameters.grad_div * (density * speed * state.size + viscosity) / alpha;
+        local_grad_div = 0.;
         for (const ShapePoint &point : space.shapes[cell])
           for (unsigned int a = 0; a < nodes_per_cell; ++a)
-            for (unsigned int b = 0; b < nodes_per_cell; ++b)
-              local(a, b) += point.weight * conductivity[cell] *
-                             (point.gradient[0][a] * point.gradient[0][b] +
-                              point.gradient[1][a] * point.gradient[1][b] +
-                              point.gradient[2][a] * point.gradient[2][b] +
-                              level * point.value[a] * point.value[b]);
-        distribute_nodes(cell);
+            {
+              local_grad_div[a] += grad_div * point.weight * point.value[a];
+              for (unsigned int b = 0; b < nodes_per_cell; ++b)
+                local(a, b) += point.weight * conductivity[cell] *
+                               (point.gradient[0][a] * point.gradient[0][b] +
+                                point.gradient[1][a] * point.gradient[1][b] +
+                                point.gradient[2][a] * point.gradient[2][b] +
+                                level * point.value[a] * point.value[b]);
+            }
+        distribute(cell);
+        nodes.hanging_nodes.distribute_local_to_global(
+          local_grad_div, indices, of_grad_div);
       }
     for (const auto &outlet : boundaries.outlets())
       for (const auto &point : space.boundary(outlet.id))
@@ -266,8 +285,12 @@ namespace graupel
           for (unsigned int a = 0; a < nodes_per_cell; ++a)
             for (unsigned int b = 0; b < nodes_per_cell; ++b)
               local(a, b) += weight * point.weight * point.value[a] * point.value[b];
-          distribute_nodes(point.cell);
+          distribute(point.cell);
         }
     schur.compress(dealii::VectorOperation::add);
+    of_grad_div.compress(dealii::VectorOperation::add);
+    for (unsigned int k = 0; k < of_grad_div.locally_owned_size(); ++k)
+      if (const double measure = nodes.measure().local_element(k); measure > 0.)
+        of_grad_div.local_element(k) /= measure * measure;
   }
 } // namespace graupel

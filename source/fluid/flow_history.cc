@@ -28,6 +28,7 @@ namespace graupel
     result.known_unresolved = known_unresolved;
     result.fresh_iterations = fresh_iterations;
     result.last_iterations  = last_iterations;
+    result.iteration_growth = iteration_growth;
     if (recipe)
       {
         result.preconditioned_rate          = recipe->rate;
@@ -78,6 +79,7 @@ namespace graupel
     known_unresolved = history.known_unresolved;
     fresh_iterations = history.fresh_iterations;
     last_iterations  = history.last_iterations;
+    iteration_growth = history.iteration_growth;
     recipe.reset();
     built.reset();
     if (history.preconditioned_rate >= 0.)
@@ -140,7 +142,7 @@ namespace graupel
     fastest             = recipe->speed;
     assemble_system(medium);
     assemble_schur(medium);
-    preconditioner.refresh(schur);
+    preconditioner.refresh(schur, of_grad_div);
     built = recipe;
   }
 } // namespace graupel

@@ -14,6 +14,9 @@ namespace graupel
     // Of the volume that the voids have: what the void fraction is exact to [-].
     constexpr double void_round_off = 1e-13;
 
+    // What a new preconditioner costs, in iterations.
+    constexpr unsigned int renewal = 8;
+
     constexpr unsigned int failed = dealii::numbers::invalid_unsigned_int;
   } // namespace
 
@@ -30,7 +33,8 @@ namespace graupel
     if (!std::isfinite(tolerance))
       throw SolverFailure("The flow's equations have values that are not finite: is the "
                           "flux or the pressure of a boundary condition?");
-    last_iterations = 0;
+    const unsigned int iterations_before = last_iterations;
+    last_iterations                      = 0;
     for (unsigned int round = 0;; ++round)
       {
         const unsigned int iterations = solve_to(tolerance, rough, medium);
@@ -53,7 +57,13 @@ namespace graupel
         tolerance *= std::clamp(0.3 * allowed / error, 1e-3, 0.03);
       }
     if (stale)
-      fresh_iterations = last_iterations;
+      {
+        fresh_iterations = last_iterations;
+        // Each time a little is forgotten, so that an older one is tried again.
+        iteration_growth = 9 * iteration_growth / 10;
+      }
+    else
+      iteration_growth = std::max(last_iterations, iterations_before) - iterations_before;
     return last_iterations;
   }
 
@@ -110,7 +120,8 @@ namespace graupel
   bool
   FlowSolver::is_stale() const
   {
-    return !recipe || last_iterations > 1.5 * fresh_iterations + 5. ||
+    // Where the next solve would take more iterations than a new one costs.
+    return !recipe || last_iterations + iteration_growth > fresh_iterations + renewal ||
            std::abs(scheme.now - recipe->rate) > 0.2 * scheme.now;
   }
 
@@ -118,7 +129,7 @@ namespace graupel
   FlowSolver::refresh_preconditioner(const Medium &medium)
   {
     assemble_schur(medium);
-    preconditioner.refresh(schur);
+    preconditioner.refresh(schur, of_grad_div);
     built = recipe = share(assembled);
   }
 
@@ -127,10 +138,9 @@ namespace graupel
   {
     boundaries.constraints().set_zero(solution);
     solution.zero_out_ghost_values();
-    // A preconditioner of an earlier step may not serve any more: give up early
-    // with it, and only then with a fresh one.
-    const unsigned int patience =
-      std::min(parameters.maximum_iterations, std::max(50u, 3 * fresh_iterations));
+    // A preconditioner of an earlier step may not serve any more: go on with a fresh one.
+    const unsigned int patience = std::min(parameters.maximum_iterations,
+                                           std::max(20u, fresh_iterations + 2 * renewal));
     unsigned int iterations = minimizer.solve(solution, rhs, tolerance, part, patience);
     if (iterations == failed)
       {

@@ -190,6 +190,7 @@ namespace graupel
         recipe           = recipe_before;
         fresh_iterations = before.fresh_iterations;
         last_iterations  = before.last_iterations;
+        iteration_growth = before.iteration_growth;
         if (known_media > 0)
           boundaries.update(now, last_velocity, density, alpha_old);
         throw;

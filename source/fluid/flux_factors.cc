@@ -18,7 +18,7 @@ namespace graupel
   {
     rows.clear();
     columns.clear();
-    values.clear();
+    std::vector<float>        entries;
     std::vector<unsigned int> place(system.n_rows(), nowhere);
     for (unsigned int row = 0; row < system.n_rows(); ++row)
       {
@@ -30,17 +30,25 @@ namespace graupel
               if (system.columns()[k] == row)
                 entry.diagonal = columns.size();
               columns.push_back(system.columns()[k]);
-              values.resize(4 * columns.size());
-              put(values, columns.size() - 1, system.flux_diagonal(k));
+              entries.resize(4 * columns.size());
+              put(entries, columns.size() - 1, system.flux_diagonal(k));
             }
         entry.end = columns.size();
         rows.push_back(entry);
-        eliminate(entry, place);
+        eliminate(entry, place, entries);
+      }
+    for (unsigned int i = 0; i < 3; ++i)
+      {
+        values[i].resize(columns.size());
+        for (std::size_t k = 0; k < columns.size(); ++k)
+          values[i][k] = entries[4 * k + i];
       }
   }
 
   void
-  FluxFactors::eliminate(const Row &row, std::vector<unsigned int> &place)
+  FluxFactors::eliminate(const Row                 &row,
+                         std::vector<unsigned int> &place,
+                         std::vector<float>        &entries) const
   {
     for (unsigned int k = row.begin; k < row.end; ++k)
       place[columns[k]] = k;
@@ -48,55 +56,39 @@ namespace graupel
       {
         const Row         &above = rows[columns[k]];
         const NodeUnknowns factor =
-          unknowns_of(values.data(), k) * unknowns_of(values.data(), above.diagonal);
-        put(values, k, factor);
+          unknowns_of(entries.data(), k) * unknowns_of(entries.data(), above.diagonal);
+        put(entries, k, factor);
         for (unsigned int j = above.diagonal + 1; j < above.end; ++j)
           if (const unsigned int here = place[columns[j]]; here != nowhere)
-            put(values,
+            put(entries,
                 here,
-                unknowns_of(values.data(), here) -
-                  factor * unknowns_of(values.data(), j));
+                unknowns_of(entries.data(), here) -
+                  factor * unknowns_of(entries.data(), j));
       }
     for (unsigned int k = row.begin; k < row.end; ++k)
       place[columns[k]] = nowhere;
     for (unsigned int i = 0; i < 3; ++i)
-      values[4 * row.diagonal + i] = 1.f / values[4 * row.diagonal + i];
-    values[4 * row.diagonal + 3] = 1.f;
+      entries[4 * row.diagonal + i] = 1.f / entries[4 * row.diagonal + i];
+    entries[4 * row.diagonal + 3] = 1.f;
   }
 
   void
-  FluxFactors::solve(NodeBlockVector       &x,
+  FluxFactors::solve(NodeValues            &x,
                      const NodeBlockVector &b,
-                     const NodeBlockVector &known) const
+                     const NodeBlockVector &known,
+                     const unsigned int     component) const
   {
-    float *const solution = x.begin();
-    // Four sums side by side, as the processor can begin the next before the last ends.
-    const auto subtract =
-      [&](NodeUnknowns &sum, const unsigned int begin, const unsigned int end) {
-        NodeUnknowns       part[4]{0.f, 0.f, 0.f, 0.f};
-        const unsigned int whole = begin + (end - begin) / 4 * 4;
-        for (unsigned int k = begin; k < whole; k += 4)
-          for (unsigned int i = 0; i < 4; ++i)
-            part[i] +=
-              unknowns_of(values.data(), k + i) * unknowns_of(solution, columns[k + i]);
-        for (unsigned int k = whole; k < end; ++k)
-          part[k - whole] +=
-            unknowns_of(values.data(), k) * unknowns_of(solution, columns[k]);
-        sum -= (part[0] + part[1]) + (part[2] + part[3]);
-      };
+    float *const       solution = x.begin();
+    const float *const entries  = values[component].data();
+    const auto         product  = [&](const unsigned int begin, const unsigned int end) {
+      return row_product(entries + begin, &columns[begin], solution, end - begin);
+    };
     for (unsigned int row = 0; row < rows.size(); ++row)
-      {
-        NodeUnknowns sum = unknowns_of(b.begin(), row) - unknowns_of(known.begin(), row);
-        sum[3]           = solution[4 * row + 3];
-        subtract(sum, rows[row].begin, rows[row].diagonal);
-        sum.copy_to(solution + 4 * row, std::experimental::element_aligned);
-      }
+      solution[row] = b.local_element(4 * row + component) -
+                      known.local_element(4 * row + component) -
+                      product(rows[row].begin, rows[row].diagonal);
     for (unsigned int row = rows.size(); row-- > 0;)
-      {
-        NodeUnknowns sum = unknowns_of(solution, row);
-        subtract(sum, rows[row].diagonal + 1, rows[row].end);
-        sum *= unknowns_of(values.data(), rows[row].diagonal);
-        sum.copy_to(solution + 4 * row, std::experimental::element_aligned);
-      }
+      solution[row] = (solution[row] - product(rows[row].diagonal + 1, rows[row].end)) *
+                      entries[rows[row].diagonal];
   }
 } // namespace graupel

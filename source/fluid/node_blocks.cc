@@ -4,15 +4,29 @@
 
 namespace graupel
 {
+  float
+  row_product(const float *const        entries,
+              const unsigned int *const columns,
+              const float *const        values,
+              const unsigned int        length)
+  {
+    // In four parts side by side, as the processor can begin the next before the last
+    // ends.
+    float        part[4]{};
+    unsigned int k = 0;
+    for (; k + 4 <= length; k += 4)
+      for (unsigned int i = 0; i < 4; ++i)
+        part[i] += entries[k + i] * values[columns[k + i]];
+    for (; k < length; ++k)
+      part[0] += entries[k] * values[columns[k]];
+    return (part[0] + part[1]) + (part[2] + part[3]);
+  }
+
   NodeBlockMatrix::NodeBlockMatrix(const FlowMatrix &original)
     : original(original)
-    , partitioner(std::make_shared<const dealii::Utilities::MPI::Partitioner>(
-        unknowns_of_nodes(original.partitioner()->locally_owned_range(), 4),
-        unknowns_of_nodes(original.partitioner()->ghost_indices(), 4),
-        original.partitioner()->get_mpi_communicator()))
-    , flux_columns(12 * original.columns().size())
-    , pressure_columns(4 * original.columns().size())
   {
+    for (auto &column : blocks)
+      column.resize(4 * original.columns().size());
   }
 
   void
@@ -22,19 +36,17 @@ namespace graupel
     const auto &starts = rows();
     for (unsigned int row = 0; row < n_rows(); ++row)
       {
-        std::array<float, 2> sums{};
-        for (unsigned int k = starts[row]; k < starts[row + 1]; ++k)
-          {
-            const double *const block = original.block(k);
-            float *const flux         = &flux_columns[12 * k], *const pressure =
-                                                         &pressure_columns[4 * k];
-            std::copy(block, block + 12, flux);
-            std::copy(block + 12, block + 16, pressure);
-            sums[0] += std::abs(flux[3]) + std::abs(flux[7]) + std::abs(flux[11]);
-            sums[1] += std::abs(pressure[3]);
-          }
-        for (unsigned int i = 0; i < 2; ++i)
-          continuity_norms[i] = std::max<double>(continuity_norms[i], sums[i]);
+        std::array<float, 4> sums{};
+        for (std::size_t k = starts[row]; k < starts[row + 1]; ++k)
+          for (unsigned int c = 0; c < 4; ++c)
+            {
+              const double *const column = original.block(k) + 4 * c;
+              std::copy(column, column + 4, &blocks[c][4 * k]);
+              sums[c] += std::abs(blocks[c][4 * k + 3]);
+            }
+        continuity_norms[0] =
+          std::max<double>(continuity_norms[0], sums[0] + sums[1] + sums[2]);
+        continuity_norms[1] = std::max<double>(continuity_norms[1], sums[3]);
       }
     for (double &norm : continuity_norms)
       norm = dealii::Utilities::MPI::max(norm, nodes()->get_mpi_communicator());
@@ -43,49 +55,35 @@ namespace graupel
   void
   NodeBlockMatrix::initialize(NodeBlockVector &vector) const
   {
-    vector.reinit(partitioner);
+    vector.reinit(unknowns_of_nodes(nodes()->locally_owned_range(), 4),
+                  nodes()->get_mpi_communicator());
   }
 
   void
-  NodeBlockMatrix::multiply_pressure(NodeBlockVector       &product,
-                                     const NodeBlockVector &x) const
+  NodeBlockMatrix::initialize_values(NodeValues &values) const
+  {
+    values.reinit(nodes());
+  }
+
+  void
+  NodeBlockMatrix::add_product(NodeBlockVector   &product,
+                               const NodeValues  &x,
+                               const unsigned int unknown) const
   {
     x.update_ghost_values();
     const auto        &starts = rows(), &nodes = columns();
-    const float *const from     = x.begin();
-    const float       *pressure = pressure_columns.data();
+    const float *const from   = x.begin();
+    const float       *column = blocks[unknown].data();
     for (unsigned int row = 0; row < n_rows(); ++row)
       {
-        NodeUnknowns sum = 0.f, other = 0.f;
+        NodeUnknowns sum[2]{unknowns_of(product.begin(), row), 0.f};
         unsigned int k = starts[row];
-        for (; k + 2 <= starts[row + 1]; k += 2, pressure += 8)
-          {
-            sum += unknowns_of(pressure, 0) * from[4 * nodes[k] + 3];
-            other += unknowns_of(pressure, 1) * from[4 * nodes[k + 1] + 3];
-          }
-        for (; k < starts[row + 1]; ++k, pressure += 4)
-          sum += unknowns_of(pressure, 0) * from[4 * nodes[k] + 3];
-        sum += other;
-        sum.copy_to(product.begin() + 4 * row, std::experimental::element_aligned);
-      }
-    x.zero_out_ghost_values();
-  }
-
-  void
-  NodeBlockMatrix::add_flux_product(NodeBlockVector       &product,
-                                    const NodeBlockVector &x) const
-  {
-    x.update_ghost_values();
-    const auto        &starts = rows(), &nodes = columns();
-    const float *const from = x.begin();
-    const float       *flux = flux_columns.data();
-    for (unsigned int row = 0; row < n_rows(); ++row)
-      {
-        NodeUnknowns sum[3]{unknowns_of(product.begin(), row), 0.f, 0.f};
-        for (unsigned int k = starts[row]; k < starts[row + 1]; ++k, flux += 12)
-          for (unsigned int i = 0; i < 3; ++i)
-            sum[i] += unknowns_of(flux, i) * from[4 * nodes[k] + i];
-        sum[0] += sum[1] + sum[2];
+        for (; k + 2 <= starts[row + 1]; k += 2, column += 8)
+          for (unsigned int i = 0; i < 2; ++i)
+            sum[i] += unknowns_of(column, i) * from[nodes[k + i]];
+        for (; k < starts[row + 1]; ++k, column += 4)
+          sum[0] += unknowns_of(column, 0) * from[nodes[k]];
+        sum[0] += sum[1];
         sum[0].copy_to(product.begin() + 4 * row, std::experimental::element_aligned);
       }
     x.zero_out_ghost_values();

@@ -6,33 +6,11 @@
 
 namespace graupel
 {
-  namespace
-  {
-    // Sum of the products of entries with the values of their columns, in four parts side
-    // by side, as the processor can begin the next before the last ends.
-    float
-    product(const float *const        values,
-            const unsigned int *const columns,
-            const float *const        x,
-            const unsigned int        length)
-    {
-      float        part[4]{};
-      unsigned int k = 0;
-      for (; k + 4 <= length; k += 4)
-        for (unsigned int i = 0; i < 4; ++i)
-          part[i] += values[k + i] * x[columns[k + i]];
-      for (; k < length; ++k)
-        part[0] += values[k] * x[columns[k]];
-      return (part[0] + part[1]) + (part[2] + part[3]);
-    }
-  } // namespace
-
   PressureMultigrid::PressureMultigrid(const NodeBlockMatrix &system)
     : system(system)
     , values(system.columns().size())
     , inverse_diagonal(system.n_rows())
   {
-    pressure.reinit(system.nodes());
     residual.reinit(system.nodes()->locally_owned_range(),
                     system.nodes()->get_mpi_communicator());
     correction.reinit(residual);
@@ -89,68 +67,66 @@ namespace graupel
   }
 
   void
-  PressureMultigrid::vmult(NodeBlockVector &x, const NodeBlockVector &b) const
+  PressureMultigrid::vmult(NodeValues &x, const NodeBlockVector &b) const
   {
-    const unsigned int n_rows = system.n_rows();
     if (has_coarser)
       {
-        smooth_forwards(b);
-        find_residual();
-        correct();
-        smooth_backwards(b);
-        for (unsigned int row = 0; row < n_rows; ++row)
-          x.local_element(4 * row + 3) = pressure.local_element(row);
+        smooth_forwards(x, b);
+        find_residual(x);
+        correct(x);
+        smooth_backwards(x, b);
       }
     else
       {
-        for (unsigned int row = 0; row < n_rows; ++row)
+        for (unsigned int row = 0; row < system.n_rows(); ++row)
           residual.local_element(row) = b.local_element(4 * row + 3);
         levels.vmult(correction, residual);
-        for (unsigned int row = 0; row < n_rows; ++row)
-          x.local_element(4 * row + 3) = correction.local_element(row);
+        for (unsigned int row = 0; row < system.n_rows(); ++row)
+          x.local_element(row) = correction.local_element(row);
       }
   }
 
   float
-  PressureMultigrid::row_product(const unsigned int begin, const unsigned int end) const
+  PressureMultigrid::product(const NodeValues  &x,
+                             const unsigned int begin,
+                             const unsigned int end) const
   {
-    return product(
-      &values[begin], &system.columns()[begin], pressure.begin(), end - begin);
+    return row_product(&values[begin], &system.columns()[begin], x.begin(), end - begin);
   }
 
   void
-  PressureMultigrid::smooth_forwards(const NodeBlockVector &b) const
+  PressureMultigrid::smooth_forwards(NodeValues &x, const NodeBlockVector &b) const
   {
     for (unsigned int row = 0; row < system.n_rows(); ++row)
-      pressure.local_element(row) =
+      x.local_element(row) =
         inverse_diagonal[row] *
-        (b.local_element(4 * row + 3) - row_product(system.rows()[row], diagonals[row]));
+        (b.local_element(4 * row + 3) - product(x, system.rows()[row], diagonals[row]));
   }
 
   void
-  PressureMultigrid::find_residual() const
+  PressureMultigrid::find_residual(const NodeValues &x) const
   {
     // A row has only been told of what comes before its diagonal.
-    pressure.update_ghost_values();
+    x.update_ghost_values();
     for (unsigned int row = 0; row < system.n_rows(); ++row)
       residual.local_element(row) =
-        -row_product(diagonals[row] + 1, system.rows()[row + 1]);
-    pressure.zero_out_ghost_values();
+        -product(x, diagonals[row] + 1, system.rows()[row + 1]);
+    x.zero_out_ghost_values();
   }
 
   void
-  PressureMultigrid::smooth_backwards(const NodeBlockVector &b) const
+  PressureMultigrid::smooth_backwards(NodeValues &x, const NodeBlockVector &b) const
   {
-    pressure.update_ghost_values();
+    x.update_ghost_values();
     for (unsigned int row = system.n_rows(); row-- > 0;)
-      pressure.local_element(row) +=
+      x.local_element(row) +=
         inverse_diagonal[row] * (b.local_element(4 * row + 3) -
-                                 row_product(system.rows()[row], system.rows()[row + 1]));
-    pressure.zero_out_ghost_values();
+                                 product(x, system.rows()[row], system.rows()[row + 1]));
+    x.zero_out_ghost_values();
   }
 
   void
-  PressureMultigrid::correct() const
+  PressureMultigrid::correct(NodeValues &x) const
   {
     ML_Operator *const restriction = ml->SingleLevel[ml->ML_finest_level].Rmat;
     ML_1Level *const   coarser     = restriction->to;
@@ -168,6 +144,6 @@ namespace graupel
     ML_Operator_Apply(
       coarser->Pmat, n_coarse, coarse_correction.data(), n_fine, correction.begin());
     for (unsigned int row = 0; row < system.n_rows(); ++row)
-      pressure.local_element(row) += correction.local_element(row);
+      x.local_element(row) += correction.local_element(row);
   }
 } // namespace graupel

@@ -132,7 +132,6 @@ namespace graupel
         }
     NodeBlockVector &image = basis[n_basis];
     preconditioner.vmult(directions[n_basis], image, source);
-    system.add_flux_product(image, directions[n_basis]);
 
     const auto squared_rest = [&](const std::vector<double> &part) {
       double square = part[n_basis];
@@ -244,7 +243,7 @@ namespace graupel
         const bool   goes_on    = minimize(0.7 * wanted / error, maximum, iterations);
         const double last_error = error;
         add_directions(x);
-        if (!goes_on)
+        if (!goes_on && iterations < maximum)
           forget();
         error = take_residual(x, b);
         if (iterations >= maximum || (goes_on && !(error < least_progress * last_error)))

@@ -8,10 +8,14 @@ namespace graupel
 {
   /**
    * Block triangular preconditioner [A G; 0 S] of the coupled system [A G; D C] of
-   * flux and pressure: FluxFactors for A, and one algebraic multigrid cycle on an
-   * approximation S of the Schur complement C - D A^-1 G.
-   * Source: Elman, Silvester & Wathen, Finite Elements and Fast Iterative Solvers (2014),
-   * ch. 9.
+   * flux and pressure. Of A, FluxFactors of each component in turn, which knows those
+   * before it: grad-div couples them. Of the inverse of the Schur complement
+   * S = C - D A^-1 G, one cycle of algebraic multigrid for a diffusion of the pressure,
+   * plus what grad-div adds to it, its coefficient over the volume of each node. Source:
+   * Elman, Silvester & Wathen, Finite Elements and Fast Iterative Solvers (2014), ch. 9;
+   * Cahouet & Chabard, Int. J. Numer. Methods Fluids 8 (1988) 869,
+   * doi:10.1002/fld.1650080802, and Heister & Rapin, ibid. 71 (2013) 118,
+   * doi:10.1002/fld.3654 (grad-div).
    */
   class BlockPreconditioner
   {
@@ -19,12 +23,14 @@ namespace graupel
     /** Of @p system, which must outlive this object. */
     explicit BlockPreconditioner(const NodeBlockMatrix &system);
 
-    /** Factorises; again when the system or @p schur have changed too much, of which the
-     * latter must stay. */
-    void refresh(const dealii::TrilinosWrappers::SparseMatrix &schur);
+    /** Factorises; again when the system has changed too much. @p diffusion is that of
+     * the pressure, and must stay; @p of_grad_div what is added to its inverse, by node.
+     */
+    void refresh(const dealii::TrilinosWrappers::SparseMatrix &diffusion,
+                 const NodalVector                            &of_grad_div);
 
     /** @p x becomes about the solution for @p b, and @p product what the system makes of
-     * the pressure of x, which is found on the way. */
+     * x, which is found on the way. Collective. */
     void vmult(NodeBlockVector       &x,
                NodeBlockVector       &product,
                const NodeBlockVector &b) const;
@@ -32,7 +38,9 @@ namespace graupel
   private:
     const NodeBlockMatrix &system;
     FluxFactors            flux_inverse;
-    PressureMultigrid      schur_inverse;
+    PressureMultigrid      diffusion_inverse;
+    std::vector<float>     of_grad_div;
+    mutable NodeValues     values; // of one unknown
   };
 } // namespace graupel
 

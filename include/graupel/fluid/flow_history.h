@@ -27,6 +27,9 @@ namespace graupel
            preconditioned_speed = 0.;
     /** Whether solids moved in that matrix. */
     bool preconditioned_solids = false;
+    /** By how many iterations the last step took more than the one before, with the same
+     * preconditioner [-]. */
+    unsigned int iteration_growth = 0;
   };
 } // namespace graupel
 

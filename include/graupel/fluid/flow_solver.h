@@ -392,10 +392,12 @@ namespace graupel
     CellScatter                            scatter;
     NodeBlockMatrix                        node_matrix; // of matrix
     dealii::TrilinosWrappers::SparseMatrix schur;
+    NodalVector                            of_grad_div; // over the nodes' volumes
     BlockPreconditioner                    preconditioner;
     ResidualMinimizer                      minimizer;
     unsigned int                           fresh_iterations = 0;
     unsigned int                           last_iterations  = 0;
+    unsigned int                           iteration_growth = 0;
     // Of the preconditioner that is to be used, and of the one that there is: they differ
     // after a restart or a step that failed.
     std::shared_ptr<const Recipe> recipe, built;

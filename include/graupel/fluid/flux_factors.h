@@ -15,11 +15,11 @@ namespace graupel
   public:
     void refresh(const NodeBlockMatrix &system);
 
-    /** The flux of each node in @p x becomes (LU)^-1 (@p b - @p known); pressures stay.
-     */
-    void solve(NodeBlockVector       &x,
+    /** @p x becomes (LU)^-1 (@p b - @p known) for the component @p component. */
+    void solve(NodeValues            &x,
                const NodeBlockVector &b,
-               const NodeBlockVector &known) const;
+               const NodeBlockVector &known,
+               const unsigned int     component) const;
 
   private:
     // A row's blocks: of L, whose diagonal is 1, and of U beyond its diagonal.
@@ -28,11 +28,14 @@ namespace graupel
       unsigned int begin, diagonal, end;
     };
 
-    void eliminate(const Row &row, std::vector<unsigned int> &place);
+    // Of all components at once: four numbers an entry.
+    void eliminate(const Row                 &row,
+                   std::vector<unsigned int> &place,
+                   std::vector<float>        &entries) const;
 
-    std::vector<Row>          rows;
-    std::vector<unsigned int> columns;
-    std::vector<float>        values; // four each; those on the diagonal are inverted
+    std::vector<Row>                  rows;
+    std::vector<unsigned int>         columns;
+    std::array<std::vector<float>, 3> values; // those on the diagonal are inverted
   };
 } // namespace graupel
 

@@ -11,6 +11,9 @@ namespace graupel
    * precision. */
   using NodeBlockVector = dealii::LinearAlgebra::distributed::Vector<float>;
 
+  /** One of the unknowns, or one equation, of each node, in single precision. */
+  using NodeValues = dealii::LinearAlgebra::distributed::Vector<float>;
+
   /** The four unknowns of a node: three components of the flux, the pressure. */
   using NodeUnknowns =
     std::experimental::simd<float, std::experimental::simd_abi::deduce_t<float, 4>>;
@@ -21,6 +24,12 @@ namespace graupel
   {
     return NodeUnknowns(values + 4 * node, std::experimental::element_aligned);
   }
+
+  /** Sum of the products of @p length entries with the values of their columns. */
+  float row_product(const float *const        entries,
+                    const unsigned int *const columns,
+                    const float *const        values,
+                    const unsigned int        length);
 
   /**
    * The flow's linear system [A G; D C] in single precision: half of the bytes, and bytes
@@ -35,13 +44,18 @@ namespace graupel
     /** Takes the values that the original has now. Collective. */
     void take();
 
-    /** Makes @p vector a zero vector, with room for ghosts. */
+    /** Makes @p vector a zero vector of all unknowns. */
     void initialize(NodeBlockVector &vector) const;
 
-    /** The product with @p x in two parts: @p product = [G; C] p, and product += [A; D]
-     * q. Between them the preconditioner finds q. Collective. */
-    void multiply_pressure(NodeBlockVector &product, const NodeBlockVector &x) const;
-    void add_flux_product(NodeBlockVector &product, const NodeBlockVector &x) const;
+    /** Makes @p values a zero vector with room for ghosts. */
+    void initialize_values(NodeValues &values) const;
+
+    /** The product with a vector, unknown by unknown: @p product gains what @p unknown
+     * (0 to 2 a component of the flux, 3 the pressure) with the values @p x adds to it.
+     * Between them the preconditioner finds the next. Collective. */
+    void add_product(NodeBlockVector   &product,
+                     const NodeValues  &x,
+                     const unsigned int unknown) const;
 
     /** @p dst = @p src / @p size of the own unknowns, and dst += size * src. */
     void to_nodes(NodeBlockVector &dst, const BlockVector &src, const double size) const;
@@ -86,17 +100,17 @@ namespace graupel
     NodeUnknowns
     flux_diagonal(const unsigned int block) const
     {
-      const float *const values = &flux_columns[12 * block];
-      return NodeUnknowns(
-        [&](const auto i) { return i < 3 ? values[5 * (i % 3)] : 0.f; });
+      return NodeUnknowns([&](const auto i) {
+        return i < 3 ? blocks[i % 3][4 * static_cast<std::size_t>(block) + i] : 0.f;
+      });
     }
 
   private:
     const FlowMatrix                                          &original;
     std::shared_ptr<const dealii::Utilities::MPI::Partitioner> partitioner;
-    // By block, each column of it by itself: three of the flux, and the pressure's.
-    std::vector<float>    flux_columns, pressure_columns;
-    std::array<double, 2> continuity_norms{};
+    // By unknown: its column of each block.
+    std::array<std::vector<float>, 4> blocks;
+    std::array<double, 2>             continuity_norms{};
   };
 } // namespace graupel
 

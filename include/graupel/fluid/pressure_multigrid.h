@@ -27,21 +27,23 @@ namespace graupel
     /** Makes the levels of @p matrix, which must stay. Collective. */
     void refresh(const dealii::TrilinosWrappers::SparseMatrix &matrix);
 
-    /** The pressure of each node in @p x becomes about the solution for that in @p b;
-     * fluxes stay. Collective. */
-    void vmult(NodeBlockVector &x, const NodeBlockVector &b) const;
+    /** @p x becomes about the solution for the continuity equations of @p b. Collective.
+     */
+    void vmult(NodeValues &x, const NodeBlockVector &b) const;
 
   private:
     void take_finest(const dealii::TrilinosWrappers::SparseMatrix &matrix);
     // Sum over the entries at these places.
-    float row_product(const unsigned int begin, const unsigned int end) const;
+    float product(const NodeValues  &x,
+                  const unsigned int begin,
+                  const unsigned int end) const;
     // From 0.
-    void smooth_forwards(const NodeBlockVector &b) const;
+    void smooth_forwards(NodeValues &x, const NodeBlockVector &b) const;
     // What is left after that.
-    void find_residual() const;
+    void find_residual(const NodeValues &x) const;
     // Adds to the pressure what the coarser levels make of the residual.
-    void correct() const;
-    void smooth_backwards(const NodeBlockVector &b) const;
+    void correct(NodeValues &x) const;
+    void smooth_backwards(NodeValues &x, const NodeBlockVector &b) const;
 
     const NodeBlockMatrix                    &system;
     dealii::TrilinosWrappers::PreconditionAMG levels;
@@ -50,7 +52,6 @@ namespace graupel
     std::vector<float>                        values;    // by the system's blocks
     std::vector<unsigned int>                 diagonals; // their places
     std::vector<float>                        inverse_diagonal;
-    mutable dealii::LinearAlgebra::distributed::Vector<float>  pressure;
     mutable dealii::LinearAlgebra::distributed::Vector<double> residual, correction;
     mutable std::vector<double> coarse_residual, coarse_correction;
   };

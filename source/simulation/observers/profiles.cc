@@ -101,16 +101,20 @@ namespace graupel
     , places(1e-6)
   {
     // A hair inside: the mapped boundary is not exactly the circle.
-    const double       half   = mesh.cylinder().diameter / 2. * (1. - 1e-3);
+    const double half = mesh.cylinder().diameter / 2. * (1. - 1e-3);
+    // And a hair beside the plane, where faces of cells lie: for a point on one deal.II
+    // looks at all cells of the mesh. A vessel may have one side only.
+    const double       beside = 1e-5 * half;
     const double       height = mesh.cylinder().height * (1. - 1e-6);
     const unsigned int n_along =
       std::max(2l, std::lround(height / (2. * half) * n_across));
     if (dealii::Utilities::MPI::this_mpi_process(mesh.communicator()) == 0)
       for (unsigned int i = 0; i < n_across; ++i)
         for (unsigned int k = 0; k < n_along; ++k)
-          points.emplace_back(-half + 2. * half * i / (n_across - 1),
-                              0.,
-                              height * (1e-6 + (1. - 1e-6) * k / (n_along - 1)));
+          for (const double y : {beside, -beside})
+            points.emplace_back(-half + 2. * half * i / (n_across - 1),
+                                y,
+                                height * (1e-6 + (1. - 1e-6) * k / (n_along - 1)));
   }
 
   std::vector<PlanePoint>
@@ -126,9 +130,13 @@ namespace graupel
                pressure = evaluate(fields.pressure);
 
     std::vector<PlanePoint> plane;
-    for (unsigned int n = 0; n < points.size(); ++n)
-      if (places.point_found(n))
-        plane.push_back({points[n][0], points[n][2], alpha[n], flux[n], pressure[n]});
+    for (unsigned int side = 0; side < points.size(); side += 2)
+      for (const unsigned int n : {side, side + 1})
+        if (places.point_found(n))
+          {
+            plane.push_back({points[n][0], points[n][2], alpha[n], flux[n], pressure[n]});
+            break;
+          }
     return plane;
   }
 
