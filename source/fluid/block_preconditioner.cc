@@ -6,7 +6,8 @@ namespace graupel
     : system(system)
     , diffusion_inverse(system)
   {
-    system.initialize_values(values);
+    for (NodeValues &value : values)
+      system.initialize_values(value);
   }
 
   void
@@ -23,20 +24,18 @@ namespace graupel
                              NodeBlockVector       &product,
                              const NodeBlockVector &b) const
   {
-    const auto take = [&](const unsigned int unknown) {
-      for (unsigned int row = 0; row < system.n_rows(); ++row)
-        x.local_element(4 * row + unknown) = values.local_element(row);
-      system.add_product(product, values, unknown);
-    };
-    product = 0.f;
-    diffusion_inverse.vmult(values, b);
+    NodeValues &pressure = values[3];
+    diffusion_inverse.vmult(pressure, b);
     for (unsigned int row = 0; row < system.n_rows(); ++row)
-      values.local_element(row) += of_grad_div[row] * b.local_element(4 * row + 3);
-    take(3);
+      pressure.local_element(row) += of_grad_div[row] * b.local_element(4 * row + 3);
+    system.multiply(product, pressure, 3);
     for (unsigned int component = 0; component < 3; ++component)
       {
-        flux_inverse.solve(values, b, product, component);
-        take(component);
+        flux_inverse.solve(values[component], b, product, component);
+        system.add_product(product, values[component], component);
       }
+    for (unsigned int row = 0; row < system.n_rows(); ++row)
+      for (unsigned int unknown = 0; unknown < 4; ++unknown)
+        x.local_element(4 * row + unknown) = values[unknown].local_element(row);
   }
 } // namespace graupel

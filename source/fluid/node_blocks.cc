@@ -4,24 +4,6 @@
 
 namespace graupel
 {
-  float
-  row_product(const float *const        entries,
-              const unsigned int *const columns,
-              const float *const        values,
-              const unsigned int        length)
-  {
-    // In four parts side by side, as the processor can begin the next before the last
-    // ends.
-    float        part[4]{};
-    unsigned int k = 0;
-    for (; k + 4 <= length; k += 4)
-      for (unsigned int i = 0; i < 4; ++i)
-        part[i] += entries[k + i] * values[columns[k + i]];
-    for (; k < length; ++k)
-      part[0] += entries[k] * values[columns[k]];
-    return (part[0] + part[1]) + (part[2] + part[3]);
-  }
-
   NodeBlockMatrix::NodeBlockMatrix(const FlowMatrix &original)
     : original(original)
   {
@@ -66,9 +48,29 @@ namespace graupel
   }
 
   void
+  NodeBlockMatrix::multiply(NodeBlockVector   &product,
+                            const NodeValues  &x,
+                            const unsigned int unknown) const
+  {
+    add_column(product, x, unknown, [](const unsigned int) { return NodeUnknowns(0.f); });
+  }
+
+  void
   NodeBlockMatrix::add_product(NodeBlockVector   &product,
                                const NodeValues  &x,
                                const unsigned int unknown) const
+  {
+    add_column(product, x, unknown, [&](const unsigned int row) {
+      return unknowns_of(product.begin(), row);
+    });
+  }
+
+  template <typename Begin>
+  void
+  NodeBlockMatrix::add_column(NodeBlockVector   &product,
+                              const NodeValues  &x,
+                              const unsigned int unknown,
+                              const Begin       &begin) const
   {
     x.update_ghost_values();
     const auto        &starts = rows(), &nodes = columns();
@@ -76,14 +78,14 @@ namespace graupel
     const float       *column = blocks[unknown].data();
     for (unsigned int row = 0; row < n_rows(); ++row)
       {
-        NodeUnknowns sum[2]{unknowns_of(product.begin(), row), 0.f};
+        NodeUnknowns sum[4]{begin(row), 0.f, 0.f, 0.f};
         unsigned int k = starts[row];
-        for (; k + 2 <= starts[row + 1]; k += 2, column += 8)
-          for (unsigned int i = 0; i < 2; ++i)
+        for (; k + 4 <= starts[row + 1]; k += 4, column += 16)
+          for (unsigned int i = 0; i < 4; ++i)
             sum[i] += unknowns_of(column, i) * from[nodes[k + i]];
         for (; k < starts[row + 1]; ++k, column += 4)
           sum[0] += unknowns_of(column, 0) * from[nodes[k]];
-        sum[0] += sum[1];
+        sum[0] = (sum[0] + sum[1]) + (sum[2] + sum[3]);
         sum[0].copy_to(product.begin() + 4 * row, std::experimental::element_aligned);
       }
     x.zero_out_ghost_values();

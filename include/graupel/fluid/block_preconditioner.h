@@ -36,11 +36,11 @@ namespace graupel
                const NodeBlockVector &b) const;
 
   private:
-    const NodeBlockMatrix &system;
-    FluxFactors            flux_inverse;
-    PressureMultigrid      diffusion_inverse;
-    std::vector<float>     of_grad_div;
-    mutable NodeValues     values; // of one unknown
+    const NodeBlockMatrix            &system;
+    FluxFactors                       flux_inverse;
+    PressureMultigrid                 diffusion_inverse;
+    std::vector<float>                of_grad_div;
+    mutable std::array<NodeValues, 4> values; // by unknown
   };
 } // namespace graupel
 
