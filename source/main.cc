@@ -29,7 +29,7 @@ namespace
     finished,
     told,    // --check and the like: nothing ran
     refused, // bad input
-    failed,  // a study, some of whose levels have failed
+    failed,  // a study, some of whose levels have failed, or no report could be made
     stopped, // as it was asked to
     broken,  // by a fault
     unwritten
@@ -57,10 +57,10 @@ namespace
   }
 
   const char *const statuses =
-    "Exit status: 0, all is done; 1, the input is refused, or levels of a study have "
-    "failed; 2, the run has stopped by a fault; 3, it has stopped by a signal (INT, "
-    "TERM, "
-    "USR1) or its time limit, and --resume goes on; 4, a file cannot be written.\n";
+    "Exit status: 0, all is done; 1, the input is refused, levels of a study have "
+    "failed, or all is done but no report could be made; 2, the run has stopped by a "
+    "fault; 3, it has stopped by a signal (INT, TERM, USR1) or its time limit, and "
+    "--resume goes on; 4, a file cannot be written.\n";
 
   bool
   is_first_rank()
@@ -72,8 +72,10 @@ namespace
   add_options(CLI::App &app, Options &options)
   {
     app.set_version_flag("--version", "graupel " GRAUPEL_VERSION);
-    app.add_option(
-      "FILE", options.file, "Parameter file (.prm, .json, .xml); examples are in prm/");
+    app.add_option("FILE",
+                   options.file,
+                   "Parameter file (.prm, .json, .xml); examples are in prm/, installed "
+                   "in share/graupel/prm/");
     app.add_flag(
       "--check",
       options.check,
@@ -296,7 +298,9 @@ main(int argc, char **argv)
       }
   }
   // After MPI has ended: a child process started under MPI is unsafe.
-  const bool is_reported = first && report && make_report(directory);
+  const bool is_reported = first && report && make_report(directory, report_script());
+  if (first && report && !is_reported)
+    outcome = Outcome::failed;
   if (first)
     std::cout << "Results are in " << directory
               << (is_reported ? " (open report.html)" : "") << std::endl;

@@ -49,14 +49,15 @@ namespace graupel
     tell(directory,
          "No report was made: " + reason +
            ".\nThe results are complete. Make the report later with\n  " + command +
-           "\nor scripts/report of another copy of Graupel; Output/report = false goes "
+           "\nor graupel-report of another copy of Graupel; Output/report = false goes "
            "without.");
     return false;
   }
 
-  bool
-  make_report(const std::string &directory)
+  std::string
+  report_script()
   {
-    return make_report(directory, GRAUPEL_REPORT_SCRIPT);
+    const auto program = std::filesystem::read_symlink("/proc/self/exe");
+    return program.parent_path() / "graupel-report";
   }
 } // namespace graupel

@@ -180,7 +180,7 @@ class Report(RunTest):
             [Program.path, SHORT, "--set", "Filling/count=20", "--output", output],
             capture_output=True, text=True, env=environment,
         )  # fmt: skip
-        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(done.returncode, 1, done.stderr)
         self.assertFalse((output / "report.html").exists())
         self.assertNotIn("open report.html", done.stdout)
         self.assertIn(f"Results are in {output}", done.stdout)
@@ -188,7 +188,7 @@ class Report(RunTest):
         for text in (done.stderr, log):
             self.assertIn("No report was made", text)
             self.assertIn("apt-get install python3-matplotlib", text)
-            self.assertIn(f"scripts/report' '{output}'", text)
+            self.assertIn(f"graupel-report' '{output}'", text)
 
 
 if __name__ == "__main__":

@@ -13,8 +13,11 @@ namespace graupel
    */
   bool make_report(const std::string &directory, const std::string &script);
 
-  /** The same with scripts/report of the tree that the program was built from. */
-  bool make_report(const std::string &directory);
+  /**
+   * Where the program looks for that script: graupel-report beside itself, in the folder
+   * of the build as where it is installed. It need not be there.
+   */
+  std::string report_script();
 } // namespace graupel
 
 #endif
