@@ -1,6 +1,7 @@
 #include <graupel/base/files.h>
 #include <graupel/base/parameters.h>
 #include <graupel/base/stop_request.h>
+#include <graupel/base/version.h>
 #include <graupel/simulation/files/input_files.h>
 #include <graupel/simulation/files/may_change.h>
 #include <graupel/simulation/report.h>
@@ -19,7 +20,7 @@ namespace
   struct Options
   {
     std::string              file, output, print_parameters;
-    std::vector<std::string> overrides;
+    std::vector<std::string> overrides, arguments; // these with the program's name
     bool                     check = false, print_columns = false, resume = false;
     double                   time_limit = 0.; // [min], 0 for none
   };
@@ -71,7 +72,7 @@ namespace
   void
   add_options(CLI::App &app, Options &options)
   {
-    app.set_version_flag("--version", "graupel " GRAUPEL_VERSION);
+    app.set_version_flag("--version", "graupel " + version());
     app.add_option("FILE",
                    options.file,
                    "Parameter file (.prm, .json, .xml); examples are in prm/, installed "
@@ -158,13 +159,16 @@ namespace
             const Options                  &options,
             const dealii::ParameterHandler &prm)
   {
-    ResultFiles files(parameters.output.directory, MPI_COMM_WORLD);
-    Progress    progress = is_first_rank()
-                             ? Progress(std::cout, stdout_is_terminal(), &files.log())
-                             : Progress();
+    ResultFiles       files(parameters.output.directory, MPI_COMM_WORLD);
+    Progress          progress = is_first_rank()
+                                   ? Progress(std::cout, stdout_is_terminal(), &files.log())
+                                   : Progress();
+    const std::string opening  = opening_lines(
+      options.arguments, dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD));
     if (is_study(parameters))
       {
         files.begin(&prm);
+        progress.say(opening);
         return run_levels(parameters, options.file, progress) ? Outcome::finished
                                                               : Outcome::failed;
       }
@@ -176,6 +180,7 @@ namespace
       }
     else
       files.begin(&prm);
+    progress.say(opening);
     if (options.time_limit > 0.)
       simulation.set_time_limit(60. * options.time_limit);
     simulation.run();
@@ -264,6 +269,7 @@ main(int argc, char **argv)
       "graupel");
     Options options;
     add_options(app, options);
+    options.arguments.assign(argv, argv + argc);
     try
       {
         app.parse(argc, argv);

@@ -299,7 +299,7 @@ class Ranks(CaseTest):
             "Output/report": "false",
         }
         alone, *others = (
-            self.run_file(ROOT / "prm" / "packed-bed" / "short.prm", values, ranks=ranks)
+            self.run_file(ROOT / "tests" / "cases" / "shallow.prm", values, ranks=ranks)
             for ranks in (1, 2, 3)
         )
         for run in (alone, *others):

@@ -10,7 +10,7 @@ from runs import ROOT, call, main
 
 from common.program import FAULT
 
-SHORT = ROOT / "prm" / "packed-bed" / "short.prm"
+SHORT = ROOT / "tests" / "cases" / "shallow.prm"
 
 
 class Options(unittest.TestCase):

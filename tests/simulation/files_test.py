@@ -14,7 +14,7 @@ import numpy as np
 
 import graupel
 
-SHORT = ROOT / "prm" / "packed-bed" / "short.prm"
+SHORT = ROOT / "tests" / "cases" / "shallow.prm"
 # Of numbers in four bytes.
 SINGLE = 1e-6
 

@@ -27,7 +27,7 @@ find_package(Graupel 0.5 REQUIRED)
 add_executable(user user.cc)
 target_link_libraries(user PRIVATE Graupel::closures)
 """
-QUICK = {"Filling/count": 20, "Flow/superficial velocities": 0.3}
+QUICK = {"Filling/count": 20, "Mesh/cell size": 4.2e-3, "Flow/superficial velocities": 0.3}
 UNREPORTED = {"Output/report": "false"}
 
 

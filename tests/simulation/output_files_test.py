@@ -11,7 +11,7 @@ from xml.etree import ElementTree
 from runs import ROOT, RunTest, main
 
 PAGE = ROOT / "doc" / "output-files.md"
-SHORT = ROOT / "prm" / "packed-bed" / "short.prm"
+SHORT = ROOT / "tests" / "cases" / "shallow.prm"
 STUDY = ROOT / "prm" / "studies" / "manufactured-solution.prm"
 # Of everything something; 64 steps of a window make a spectrum.
 EVERYTHING = {

@@ -48,7 +48,8 @@ namespace graupel
     if (unit == "flag")
       return *value != 0. ? told : "";
     std::ostringstream text;
-    text << std::setprecision(4) << told << ' ' << *value * factor
+    // A negative nothing is nothing.
+    text << std::setprecision(4) << told << ' ' << *value * factor + 0.
          << (unit.empty() ? "" : " ") << unit;
     return text.str();
   }

@@ -236,7 +236,9 @@ namespace graupel
     line("particles", size.particles, "");
     line("substeps of the particles", size.substeps, "");
     line("steps of the fluid", size.fluid_steps, "");
-    line("memory, beside 0.15 GB a rank", 1e-9 * size.memory, "GB");
+    line("memory, beside " + text_of(memory_of_rank, 2) + " GB a rank",
+         1e-9 * size.memory,
+         "GB");
     line("room on the disk", 1e-9 * size.disk, "GB");
     line("CPU time", size.cpu_seconds / 3600., "h");
     text << "Steps\n";
@@ -272,7 +274,7 @@ namespace graupel
         const double weight = (1. - guessed_void_fraction) *
                               (dem.particles.density - fluid.density) *
                               dem.particles.gravity;
-        text << "  V_s = " << velocity
+        text << "  superficial velocity " << velocity
              << " m/s: Re = " << fluid.density * velocity * diameter / fluid.viscosity
              << ", Ergun's gradient " << gradient << " Pa/m = " << gradient / weight
              << " of the weight, at most "
@@ -284,6 +286,8 @@ namespace graupel
       }
     for (const std::string &warning : warnings(*this))
       text << "warning: " << warning << '\n';
+    for (const std::string &note : notes(*this))
+      text << "note: " << note << '\n';
     return text.str();
   }
 } // namespace graupel

@@ -5,6 +5,9 @@
 
 namespace graupel
 {
+  /** Memory of the program itself, on each rank [GB]. */
+  constexpr double memory_of_rank = 0.15;
+
   /**
    * How large a run will be, as far as its parameters say: numbers of cells are those of
    * the mesh without adaption, particles those of the filling; all else is a guess that

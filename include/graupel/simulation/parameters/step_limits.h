@@ -33,6 +33,11 @@ namespace graupel
   /** What a run is warned of beforehand: a step, a filter or a scale that is valid but
    * does not resolve what it should. A sentence each, with number and remedy. */
   std::vector<std::string> warnings(const RunParameters &parameters);
+
+  /** What is no mistake, but to be known when results are read: cells longer than a
+   * particle or the filter, and a friction of packing that is not that of the flow. A
+   * sentence each. */
+  std::vector<std::string> notes(const RunParameters &parameters);
 } // namespace graupel
 
 #endif

@@ -52,6 +52,12 @@ namespace graupel
       return false;
     }
 
+    /** Where it goes, for the progress line. */
+    virtual Progress::Way way() const = 0;
+
+    /** What has been done, for the log, once the case has ended. */
+    virtual std::string told() const = 0;
+
     /** For a checkpoint. */
     virtual std::string save() const                     = 0;
     virtual void        resume(const std::string &saved) = 0;

@@ -31,8 +31,10 @@ namespace graupel
       return failed;
     }
 
-    std::string save() const override;
-    void        resume(const std::string &saved) override;
+    Progress::Way way() const override;
+    std::string   told() const override;
+    std::string   save() const override;
+    void          resume(const std::string &saved) override;
 
   private:
     bool find();
@@ -55,10 +57,12 @@ namespace graupel
   public:
     explicit AutomaticFlow(FlowFrame &frame);
 
-    bool        step() override;
-    bool        is_steady() const override;
-    std::string save() const override;
-    void        resume(const std::string &saved) override;
+    bool          step() override;
+    bool          is_steady() const override;
+    Progress::Way way() const override;
+    std::string   told() const override;
+    std::string   save() const override;
+    void          resume(const std::string &saved) override;
 
   private:
     FlowFrame                &frame;
