@@ -1,3 +1,6 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright (C) 2026 The Graupel authors
+#
 # What `cmake --install` and `cpack` put where: GNUInstallDirs has the places.
 include(CMakePackageConfigHelpers)
 

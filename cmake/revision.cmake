@@ -1,3 +1,6 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright (C) 2026 The Graupel authors
+#
 # Writes the header that holds the revision of the sources, empty where they are in no repository;
 # leaves it alone where it says so already. Called at each build:
 #   cmake -D SOURCES=DIR -D HEADER=FILE -P revision.cmake

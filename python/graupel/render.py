@@ -1,3 +1,5 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright (C) 2026 The Graupel authors
 """Draws bed and flow of a run to a PNG, without a screen.
 
     scripts/render DIR [PNG]            (installed: graupel-render); default: DIR/figures/bed.png

@@ -1,3 +1,5 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright (C) 2026 The Graupel authors
 """Small inputs that go wrong easily, each run to its right value: tests/cases/.
 
 Called with the path of the binary. Where two runs are compared, the second one is the

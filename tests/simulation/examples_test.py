@@ -1,3 +1,5 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright (C) 2026 The Graupel authors
 """Every example in prm/, run to a value that analysis gives: the quick ones as they are, the
 long ones shortened. Called with the path of the binary.
 """

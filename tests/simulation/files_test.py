@@ -1,3 +1,5 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright (C) 2026 The Graupel authors
 """What other programs read of a run: its files for ParaView, lists of particles, the report and
 a picture. Called with the path of the binary.
 """

@@ -1,3 +1,5 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright (C) 2026 The Graupel authors
 """What `cmake --install` puts into an empty folder works there, and from there. Called with the
 path of the binary, which lies in the folder of the build.
 """

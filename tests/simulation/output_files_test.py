@@ -1,3 +1,5 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright (C) 2026 The Graupel authors
 """Whether doc/output-files.md and what runs write are the same, in both directions: files, columns,
 fields, keys and figures. Called with the path of the binary.
 """

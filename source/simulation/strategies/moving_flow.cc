@@ -1,3 +1,6 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The Graupel authors
+
 #include <graupel/simulation/parameters/step_limits.h>
 #include <graupel/simulation/state/bytes.h>
 #include <graupel/simulation/strategies/moving_flow.h>
