@@ -8,6 +8,9 @@ include(CMakePackageConfigHelpers)
 set(python lib/python3/dist-packages)
 set(config ${CMAKE_INSTALL_LIBDIR}/cmake/Graupel)
 
+# What is to be installed is built before: the program brings all of it, and tests need not be.
+set(CMAKE_SKIP_INSTALL_ALL_DEPENDENCY ON)
+
 # The program, and the libraries for find_package(Graupel).
 set(rooms base closures mesh dem fluid coupling simulation)
 foreach(room IN LISTS rooms)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The Graupel authors
 
+#include <graupel/base/shell_word.h>
 #include <graupel/base/version.h>
 
 #include <graupel_revision.h>
@@ -30,14 +31,14 @@ namespace graupel
       return name;
     }
 
-    // As a shell would take it.
+    // As a shell takes it, quoted only where it must be.
     std::string
     word(const std::string &argument)
     {
       const bool is_plain =
         !argument.empty() &&
         argument.find_first_of(" \t\n'\"\\$`&;|<>*?()[]{}~#!") == std::string::npos;
-      return is_plain ? argument : "'" + argument + "'";
+      return is_plain ? argument : shell_quoted(argument);
     }
   } // namespace
 

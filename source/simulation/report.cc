@@ -2,6 +2,7 @@
 // Copyright (C) 2026 The Graupel authors
 
 #include <graupel/base/files.h>
+#include <graupel/base/shell_word.h>
 #include <graupel/simulation/report.h>
 
 #include <cstdlib>
@@ -12,15 +13,6 @@ namespace graupel
 {
   namespace
   {
-    std::string
-    shell_quoted(const std::string &text)
-    {
-      std::string quoted = "'";
-      for (const char c : text)
-        quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
-      return quoted + "'";
-    }
-
     // Says it where the user looks, now or later.
     void
     tell(const std::string &directory, const std::string &message)

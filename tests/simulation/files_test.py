@@ -6,6 +6,7 @@ a picture. Called with the path of the binary.
 
 import importlib.util
 import os
+import re
 import shutil
 import subprocess
 import unittest
@@ -162,6 +163,64 @@ class Lists(RunTest):
             np.testing.assert_array_equal(
                 getattr(given, key)[order[0]], getattr(found, key)[order[1]], key
             )
+
+
+class Log(RunTest):
+    """What log.txt says."""
+
+    FRICTION = "Contact/particle friction"
+
+    def log_of(self, run):
+        return (run.directory / "log.txt").read_text(encoding="utf-8")
+
+    def test_it_opens_with_what_the_run_is(self):
+        run = self.run_file(SHORT, {"Output/report": "false", "Flow/superficial velocities": "0.3, 0.5"})
+        self.assertEqual(run.status, 0, run)
+        first, second, third, *_ = self.log_of(run).splitlines()
+        self.assertRegex(
+            first, r"^graupel \d+\.\d+\.\d+.*, 20\d\d-\d\d-\d\d \d\d:\d\d:\d\d UTC, on \S+, 1 rank$"
+        )
+        self.assertIn(f"{Program.path} {SHORT} --set Output/report=false", second)
+        self.assertIn("--set 'Flow/superficial velocities=0.3, 0.5'", second)
+        cells, unknowns = map(int, re.findall(r"\d+", third))
+        self.assertEqual(cells, run.summary["cells"])
+        # Three of flux and one of pressure in each corner, which cells have each for itself.
+        points = np.round(graupel.Run(run.directory).fields().points, 7)
+        self.assertEqual(unknowns, 4 * len(np.unique(points, axis=0)))
+
+    def test_a_phase_is_a_line(self):
+        values = {"Output/report": "false", "Filling/count": 20, "Flow/mode": "steady"}
+        log = self.log_of(self.run_file(SHORT, values))
+        for line in (
+            r"^fill: 20 particles in [\d.]+ s of simulated time; took .*$",
+            r"^settle: at rest after [\d.]+ s of simulated time; took .*$",
+            r"^flow 1/2, superficial velocity 0.3 m/s: steady flow after \d+ linear systems; took .*$",
+        ):
+            self.assertEqual(len(re.findall(line, log, re.M)), 1, log)
+        for start in ("fill:", "settle:", "flow 1/2", "flow 2/2"):
+            self.assertEqual(log.count(start), 1, log)
+        for word in ("V_s", "-0 N", "from 0"):
+            self.assertNotIn(word, log)
+
+    def test_a_moving_flow_tells_its_steps(self):
+        values = {"Output/report": "false", "Filling/count": 20, "Flow/superficial velocities": 0.3,
+                  "Flow/stop when": "flow-throughs", "Flow/duration": 0.05}  # fmt: skip
+        log = self.log_of(self.run_file(SHORT, values))
+        told = "after 0.05 s of simulated time; steps of the fluid: 5 by Flow/time step; took "
+        self.assertIn(told, log)
+
+    def test_what_is_to_be_known_is_noted(self):
+        quick = {"Output/report": "false", "Filling/count": 20, "Flow/mode": "steady"}
+        both = "Contact/packing particle friction = 0.08 acts while the bed is filled and settles, " \
+               "Contact/particle friction = 0.3 from then on"  # fmt: skip
+        coarse = "cells of 0.0042 m are longer than a simulated particle (0.0032 m)"
+        run = self.run_file(SHORT, {**quick, self.FRICTION: 0.3})
+        check = self.run_file(SHORT, {self.FRICTION: 0.3}, "--check")
+        for text in (self.log_of(run), check.said):
+            self.assertIn(f"note: {both}", text)
+            self.assertIn(f"note: {coarse}", text)
+        resolved = self.run_file(SHORT, {"Mesh/cell size": 2.1e-3}, "--check")
+        self.assertNotIn("note:", resolved.said)
 
 
 class Report(RunTest):
