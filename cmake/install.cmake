@@ -50,8 +50,8 @@ install(FILES README.md CHANGELOG.md CITATION.cff TYPE DOC)
 install(FILES LICENSE TYPE DOC RENAME copyright)
 install(DIRECTORY doc/ DESTINATION ${CMAKE_INSTALL_DOCDIR}/doc
         FILES_MATCHING PATTERN *.md PATTERN *.png PATTERN generated EXCLUDE)
-# If scripts/doc has made it.
-install(DIRECTORY ${PROJECT_BINARY_DIR}/doc/html TYPE DOC OPTIONAL)
+# If scripts/doc has made them.
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/build/doc/html TYPE DOC OPTIONAL)
 
 # A package runs on any machine of its kind, so `cpack` is for portable builds.
 if(NOT GRAUPEL_NATIVE)

@@ -2,6 +2,7 @@
 // Copyright (C) 2026 The Graupel authors
 
 #include <graupel/base/parameters.h>
+#include <graupel/base/progress.h>
 #include <graupel/base/read_numbers.h>
 #include <graupel/closures/bed_correlations.h>
 #include <graupel/dem/bed/wall_layer.h>
@@ -243,7 +244,7 @@ namespace graupel
          1e-9 * size.memory,
          "GB");
     line("room on the disk", 1e-9 * size.disk, "GB");
-    line("CPU time", size.cpu_seconds / 3600., "h");
+    line("CPU time", spoken_duration(size.cpu_seconds), "");
     text << "Steps\n";
     line("characteristic (Rayleigh) time of a contact", dem.characteristic_time(), "s");
     line("substep of the particles", dem.substep(), "s");
