@@ -41,10 +41,11 @@ namespace graupel
     describe_size(const RunParameters &parameters, const unsigned int n_ranks)
     {
       const RunSize size = expected_size(parameters);
-      return "expected, within a factor of two or three: " + text_of(size.particles, 3) +
+      return "expected, within a factor of two or three: " + text_of(size.particles) +
              " particles, " + text_of(1e-9 * size.memory + memory_of_rank * n_ranks, 3) +
              " GB of memory, " + text_of(1e-9 * size.disk, 3) + " GB on the disk, " +
-             spoken_duration(size.cpu_seconds) + " of CPU time";
+             (size.cases_may_end ? "at most " : "") + spoken_duration(size.cpu_seconds) +
+             " of CPU time";
     }
 
     // Tells the height of the bed, its void fraction and how it is supported.

@@ -163,10 +163,10 @@ class PackedBeds(ExampleTest):
 
     def assert_ergun(self, run):
         """What the first examples promise: the whole drop within 3 % of Ergun's equation for
-        the bed's own height and void fraction; without its ends, within 1 %."""
+        the bed's own height and void fraction; without its ends, within 2 %."""
         for case in run.summary["cases"]:
             self.assert_within(case["deviation_from_ergun"], 0.0, 0.03, "from Ergun")
-            self.assert_within(case["gradient_deviation_from_ergun"], 0.0, 0.01, "in the middle")
+            self.assert_within(case["gradient_deviation_from_ergun"], 0.0, 0.02, "in the middle")
 
     def test_mixture(self):
         run = self.finished("packed-bed/mixture.prm")

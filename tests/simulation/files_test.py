@@ -182,8 +182,9 @@ class Log(RunTest):
         )
         self.assertIn(f"{Program.path} {SHORT} --set Output/report=false", second)
         self.assertIn("--set 'Flow/superficial velocities=0.3, 0.5'", second)
+        self.assertIn("at most", self.log_of(run).splitlines()[3])  # the cases end when steady
         cells, unknowns = map(int, re.findall(r"\d+", third))
-        self.assertEqual(cells, run.summary["cells"])
+        self.assertEqual(cells, run.rows("monitors.csv")[-1]["cells"])
         # Three of flux and one of pressure in each corner, which cells have each for itself.
         points = np.round(graupel.Run(run.directory).fields().points, 7)
         self.assertEqual(unknowns, 4 * len(np.unique(points, axis=0)))
@@ -211,15 +212,16 @@ class Log(RunTest):
 
     def test_what_is_to_be_known_is_noted(self):
         quick = {"Output/report": "false", "Filling/count": 20, "Flow/mode": "steady"}
-        both = "Contact/packing particle friction = 0.08 acts while the bed is filled and settles, " \
-               "Contact/particle friction = 0.3 from then on"  # fmt: skip
+        both = "while the bed is filled and settles: Contact/packing particle friction = 0.08; " \
+               "from then on: Contact/particle friction = 0.3"  # fmt: skip
+        no_rolling = {"Contact/particle rolling resistance": 0, "Contact/wall rolling resistance": 0}
         coarse = "cells of 0.0042 m are longer than a simulated particle (0.0032 m)"
-        run = self.run_file(SHORT, {**quick, self.FRICTION: 0.3})
-        check = self.run_file(SHORT, {self.FRICTION: 0.3}, "--check")
+        run = self.run_file(SHORT, {**quick, **no_rolling, self.FRICTION: 0.3})
+        check = self.run_file(SHORT, {**no_rolling, self.FRICTION: 0.3}, "--check")
         for text in (self.log_of(run), check.said):
             self.assertIn(f"note: {both}", text)
             self.assertIn(f"note: {coarse}", text)
-        resolved = self.run_file(SHORT, {"Mesh/cell size": 2.1e-3}, "--check")
+        resolved = self.run_file(SHORT, {**no_rolling, "Mesh/cell size": 2.1e-3}, "--check")
         self.assertNotIn("note:", resolved.said)
 
 

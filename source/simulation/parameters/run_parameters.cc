@@ -244,7 +244,9 @@ namespace graupel
          1e-9 * size.memory,
          "GB");
     line("room on the disk", 1e-9 * size.disk, "GB");
-    line("CPU time", spoken_duration(size.cpu_seconds), "");
+    line(size.cases_may_end ? "CPU time, at most" : "CPU time",
+         spoken_duration(size.cpu_seconds),
+         "");
     text << "Steps\n";
     line("characteristic (Rayleigh) time of a contact", dem.characteristic_time(), "s");
     line("substep of the particles", dem.substep(), "s");

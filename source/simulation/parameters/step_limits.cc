@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The Graupel authors
 
+#include <graupel/base/read_numbers.h>
 #include <graupel/simulation/parameters/step_limits.h>
 
 #include <limits>
@@ -147,26 +148,27 @@ namespace graupel
     note_friction(const RunParameters &parameters, std::vector<std::string> &said)
     {
       const ContactParameters &contact = parameters.dem.contact;
-      const auto               note =
+      std::string              before, after;
+      const auto               compare =
         [&](const std::string &name, const double packing, const double flow) {
           if (packing == flow)
             return;
-          std::ostringstream text;
-          text << "Contact/packing " << name << " = " << packing
-               << " acts while the bed is filled and settles, Contact/" << name << " = "
-               << flow << " from then on";
-          said.push_back(text.str());
+          before += (before.empty() ? "Contact/packing " : ", Contact/packing ") + name +
+                    " = " + text_of(packing);
+          after +=
+            (after.empty() ? "Contact/" : ", Contact/") + name + " = " + text_of(flow);
         };
-      note("particle friction",
-           contact.packing_particle_friction,
-           contact.particle_surface.friction);
-      note("wall friction", contact.packing_wall_friction, contact.wall_surface.friction);
-      note("particle rolling resistance",
-           contact.packing_particle_rolling,
-           contact.particle_surface.rolling_resistance);
-      note("wall rolling resistance",
-           contact.packing_wall_rolling,
-           contact.wall_surface.rolling_resistance);
+      const Surface &particle = contact.particle_surface, &wall = contact.wall_surface;
+      compare("particle friction", contact.packing_particle_friction, particle.friction);
+      compare("wall friction", contact.packing_wall_friction, wall.friction);
+      compare("particle rolling resistance",
+              contact.packing_particle_rolling,
+              particle.rolling_resistance);
+      compare(
+        "wall rolling resistance", contact.packing_wall_rolling, wall.rolling_resistance);
+      if (!before.empty())
+        said.push_back("while the bed is filled and settles: " + before +
+                       "; from then on: " + after);
     }
   } // namespace
 

@@ -27,6 +27,9 @@ namespace graupel
     double memory = 0., disk = 0.;
     /** CPU time of all ranks [s]. */
     double cpu_seconds = 0.;
+    /** Whether cases end when they are steady, so that steps and time are often far
+     * fewer. */
+    bool cases_may_end = false;
   };
 
   /** That of a run of @p parameters. Throws InputError where files cannot be read. */
