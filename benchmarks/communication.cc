@@ -1,3 +1,6 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The Graupel authors
+
 // What the ranks send each other: messages, bytes and collectives of a substep of the
 // particles and of a step of the fluid, in a settled bed with flow.
 //

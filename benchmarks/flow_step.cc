@@ -1,3 +1,6 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The Graupel authors
+
 // CPU time of a step of the fluid against the number of cells: a bed that rests
 // in the lower nine tenths of the vessel of Ricklick & Baran, with a void fraction
 // that varies from place to place as in a packing, and gas through it.

@@ -1,3 +1,6 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The Graupel authors
+
 // What a core of this machine can do at most: the bytes that it moves from and to memory,
 // and its multiplications with additions. With mpirun -np N, what each of N cores can do
 // at the same time.

@@ -1,3 +1,6 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The Graupel authors
+
 // Cost of the particles' substep on a bed from a file: time and memory, and the
 // forces and contacts that show what was computed.
 

@@ -1,4 +1,6 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright (C) 2026 The Graupel authors
 """Writes doc/paper/ from the runs of scripts/reproduce-paper.
 
     scripts/paper.py RESULTS [FOLDER]

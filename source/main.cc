@@ -1,6 +1,10 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The Graupel authors
+
 #include <graupel/base/files.h>
 #include <graupel/base/parameters.h>
 #include <graupel/base/stop_request.h>
+#include <graupel/base/version.h>
 #include <graupel/simulation/files/input_files.h>
 #include <graupel/simulation/files/may_change.h>
 #include <graupel/simulation/report.h>
@@ -19,7 +23,7 @@ namespace
   struct Options
   {
     std::string              file, output, print_parameters;
-    std::vector<std::string> overrides;
+    std::vector<std::string> overrides, arguments; // these with the program's name
     bool                     check = false, print_columns = false, resume = false;
     double                   time_limit = 0.; // [min], 0 for none
   };
@@ -29,7 +33,7 @@ namespace
     finished,
     told,    // --check and the like: nothing ran
     refused, // bad input
-    failed,  // a study, some of whose levels have failed
+    failed,  // a study, some of whose levels have failed, or no report could be made
     stopped, // as it was asked to
     broken,  // by a fault
     unwritten
@@ -57,10 +61,10 @@ namespace
   }
 
   const char *const statuses =
-    "Exit status: 0, all is done; 1, the input is refused, or levels of a study have "
-    "failed; 2, the run has stopped by a fault; 3, it has stopped by a signal (INT, "
-    "TERM, "
-    "USR1) or its time limit, and --resume goes on; 4, a file cannot be written.\n";
+    "Exit status: 0, all is done; 1, the input is refused, levels of a study have "
+    "failed, or all is done but no report could be made; 2, the run has stopped by a "
+    "fault; 3, it has stopped by a signal (INT, TERM, USR1) or its time limit, and "
+    "--resume goes on; 4, a file cannot be written.\n";
 
   bool
   is_first_rank()
@@ -71,9 +75,11 @@ namespace
   void
   add_options(CLI::App &app, Options &options)
   {
-    app.set_version_flag("--version", "graupel " GRAUPEL_VERSION);
-    app.add_option(
-      "FILE", options.file, "Parameter file (.prm, .json, .xml); examples are in prm/");
+    app.set_version_flag("--version", "graupel " + version());
+    app.add_option("FILE",
+                   options.file,
+                   "Parameter file (.prm, .json, .xml); examples are in prm/, installed "
+                   "in share/graupel/prm/");
     app.add_flag(
       "--check",
       options.check,
@@ -156,13 +162,16 @@ namespace
             const Options                  &options,
             const dealii::ParameterHandler &prm)
   {
-    ResultFiles files(parameters.output.directory, MPI_COMM_WORLD);
-    Progress    progress = is_first_rank()
-                             ? Progress(std::cout, stdout_is_terminal(), &files.log())
-                             : Progress();
+    ResultFiles       files(parameters.output.directory, MPI_COMM_WORLD);
+    Progress          progress = is_first_rank()
+                                   ? Progress(std::cout, stdout_is_terminal(), &files.log())
+                                   : Progress();
+    const std::string opening  = opening_lines(
+      options.arguments, dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD));
     if (is_study(parameters))
       {
         files.begin(&prm);
+        progress.say(opening);
         return run_levels(parameters, options.file, progress) ? Outcome::finished
                                                               : Outcome::failed;
       }
@@ -174,6 +183,7 @@ namespace
       }
     else
       files.begin(&prm);
+    progress.say(opening);
     if (options.time_limit > 0.)
       simulation.set_time_limit(60. * options.time_limit);
     simulation.run();
@@ -262,6 +272,7 @@ main(int argc, char **argv)
       "graupel");
     Options options;
     add_options(app, options);
+    options.arguments.assign(argv, argv + argc);
     try
       {
         app.parse(argc, argv);
@@ -296,7 +307,9 @@ main(int argc, char **argv)
       }
   }
   // After MPI has ended: a child process started under MPI is unsafe.
-  const bool is_reported = first && report && make_report(directory);
+  const bool is_reported = first && report && make_report(directory, report_script());
+  if (first && report && !is_reported)
+    outcome = Outcome::failed;
   if (first)
     std::cout << "Results are in " << directory
               << (is_reported ? " (open report.html)" : "") << std::endl;

@@ -1,3 +1,6 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The Graupel authors
+
 // The headers that many units need and that cost most to compile.
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/parameter_handler.h>

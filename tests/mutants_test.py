@@ -1,3 +1,5 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright (C) 2026 The Graupel authors
 """The mutants that scripts/mutate makes of a text: what is changed, and what is not."""
 
 import sys

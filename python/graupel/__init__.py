@@ -1,3 +1,5 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright (C) 2026 The Graupel authors
 """Reads what a run of Graupel leaves, as numpy arrays in SI units.
 
     import graupel

@@ -1,3 +1,5 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright (C) 2026 The Graupel authors
 """Columns of the tables that a run writes, and their units."""
 
 # SI units of the columns and keys of every table, by name; a flag is True or False.

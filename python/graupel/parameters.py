@@ -1,3 +1,5 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright (C) 2026 The Graupel authors
 """Reads parameters.prm, in which a run writes down every parameter with its value."""
 
 

@@ -1,3 +1,5 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright (C) 2026 The Graupel authors
 """Lists of particles: from other programs to what Filling/method = list reads, and back.
 
     scripts/particles FROM TO           (installed: graupel-particles)

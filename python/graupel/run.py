@@ -1,3 +1,5 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright (C) 2026 The Graupel authors
 """Reads the output directory of a run (doc/output-files.md says what lies there).
 
 Nothing here stops the reader: what is missing or cannot be read becomes a sentence in

@@ -1,3 +1,5 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright (C) 2026 The Graupel authors
 """Reads VTU and VTP files, Graupel's own and those of other programs, and PVD lists.
 
 Arrays may be plain text, in base64, or appended (base64 or raw), compressed by zlib or not.

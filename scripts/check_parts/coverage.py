@@ -1,4 +1,6 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright (C) 2026 The Graupel authors
 """Prints which lines and branches of each room were executed, as a table.
 
     scripts/check_parts/coverage.py BUILD

@@ -1,3 +1,5 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright (C) 2026 The Graupel authors
 """Onset of fluidisation and the lifted bed, from the cases of a run."""
 
 import math

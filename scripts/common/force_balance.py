@@ -1,3 +1,5 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright (C) 2026 The Graupel authors
 """What a homogeneous bed does whose drag carries its weight, by the drag law alone.
 
 The forms of the program's closures, written a second time, for both phases sharing the

@@ -1,3 +1,5 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright (C) 2026 The Graupel authors
 """Words and tables of the pages in doc/."""
 
 from graupel.report.style import PERCENT

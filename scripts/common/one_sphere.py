@@ -1,3 +1,5 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright (C) 2026 The Graupel authors
 """A sphere that is released in a fluid: its equation of motion, by the drag law alone."""
 
 import math

@@ -1,3 +1,5 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright (C) 2026 The Graupel authors
 """The parameter reference, one page a section, from what the program says of its parameters."""
 
 import re

@@ -1,3 +1,5 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright (C) 2026 The Graupel authors
 """Mutants: all ways to change one line of C++ so that a test should notice."""
 
 import re

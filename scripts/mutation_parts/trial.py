@@ -1,3 +1,5 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright (C) 2026 The Graupel authors
 """A copy of the tree in which mutants are built and tested; the user's own is never touched."""
 
 import hashlib

@@ -1,3 +1,5 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright (C) 2026 The Graupel authors
 """One figure for each of the paper's figures 3 to 12, and those beyond it."""
 
 import numpy as np

@@ -1,3 +1,5 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright (C) 2026 The Graupel authors
 """The page doc/paper/README.md: Table 1, what agrees and what does not, and the figures."""
 
 import csv

@@ -1,3 +1,5 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright (C) 2026 The Graupel authors
 """A case of the validation: its runs, and what is compared.
 
 A folder prm/validation/NAME holds the parameter files, measured.csv where something was

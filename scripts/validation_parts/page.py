@@ -1,3 +1,5 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright (C) 2026 The Graupel authors
 """The page doc/validation/README.md, from the tables of its cases.
 
 Each case leaves NAME.csv and NAME.png in the folder of the page, so that the page stays whole

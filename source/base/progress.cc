@@ -1,3 +1,6 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The Graupel authors
+
 #include <graupel/base/progress.h>
 
 #include <chrono>
@@ -46,22 +49,21 @@ namespace graupel
   }
 
   void
-  Progress::start_phase(const std::string &name,
-                        const double       begin,
-                        const double       end,
-                        const std::string &unit)
+  Progress::start_phase(const std::string &name, const Way &way)
   {
-    phase         = name;
-    this->unit    = unit;
-    this->begin   = begin;
-    this->end     = end;
-    time          = begin;
+    phase = name;
+    go_on(way);
     wall_at_begin = clock();
-    has_moved     = false;
     last_rewrite  = wall_at_begin;
     last_plain    = wall_at_begin;
-    say(phase +
-        formatted(": from %.4g %s to %.4g %s", begin, unit.c_str(), end, unit.c_str()));
+  }
+
+  void
+  Progress::go_on(const Way &way)
+  {
+    this->way = way;
+    time      = way.begin;
+    has_moved = false;
   }
 
   void
@@ -95,10 +97,9 @@ namespace graupel
   }
 
   void
-  Progress::finish_phase()
+  Progress::finish_phase(const std::string &done)
   {
-    say(phase + formatted(": reached %.4g %s", time, unit.c_str()) + " after " +
-        spoken_duration(clock() - wall_at_begin));
+    say(phase + ": " + done + "; took " + spoken_duration(clock() - wall_at_begin));
   }
 
   void
@@ -118,15 +119,21 @@ namespace graupel
   Progress::line() const
   {
     const double wall = clock() - first_wall;
-    std::string  text = phase + formatted("  %.4g of %.4g %s", time, end, unit.c_str());
-    if (end > begin)
-      text += formatted("  %.0f %%", 100. * (time - begin) / (end - begin));
-    if (has_moved && wall > 0. && time > first_time)
-      {
-        const double rate = (time - first_time) / wall;
-        text += formatted("  %.3g %s/s  ", rate, unit.c_str()) +
-                spoken_duration(std::max(0., end - time) / rate) + " left";
-      }
+    const char  *unit = way.unit.c_str();
+    std::string  text = phase;
+    if (way.end_is_limit)
+      text += formatted("  %.4g %s, at most %.4g %s", time, unit, way.end, unit);
+    else if (!way.unit.empty())
+      text += formatted("  %.4g of %.4g %s", time, way.end, unit);
+    if (!way.end_is_limit && way.end > way.begin)
+      text += formatted("  %.0f %%", 100. * (time - way.begin) / (way.end - way.begin));
+    if (!has_moved || !(wall > 0.) || !(time > first_time))
+      return text;
+    const double rate = (time - first_time) / wall;
+    if (!way.unit.empty())
+      text += formatted("  %.3g %s/s", rate, unit);
+    if (!way.end_is_limit)
+      text += "  " + spoken_duration(std::max(0., way.end - time) / rate) + " left";
     return text;
   }
 

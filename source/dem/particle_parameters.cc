@@ -1,3 +1,6 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The Graupel authors
+
 #include <graupel/base/parameters.h>
 #include <graupel/dem/dem_parameters.h>
 #include <graupel/dem/particles/particle_arrays.h>

@@ -1,4 +1,8 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The Graupel authors
+
 #include <graupel/base/files.h>
+#include <graupel/base/shell_word.h>
 #include <graupel/simulation/report.h>
 
 #include <cstdlib>
@@ -9,15 +13,6 @@ namespace graupel
 {
   namespace
   {
-    std::string
-    shell_quoted(const std::string &text)
-    {
-      std::string quoted = "'";
-      for (const char c : text)
-        quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
-      return quoted + "'";
-    }
-
     // Says it where the user looks, now or later.
     void
     tell(const std::string &directory, const std::string &message)
@@ -49,14 +44,15 @@ namespace graupel
     tell(directory,
          "No report was made: " + reason +
            ".\nThe results are complete. Make the report later with\n  " + command +
-           "\nor scripts/report of another copy of Graupel; Output/report = false goes "
+           "\nor graupel-report of another copy of Graupel; Output/report = false goes "
            "without.");
     return false;
   }
 
-  bool
-  make_report(const std::string &directory)
+  std::string
+  report_script()
   {
-    return make_report(directory, GRAUPEL_REPORT_SCRIPT);
+    const auto program = std::filesystem::read_symlink("/proc/self/exe");
+    return program.parent_path() / "graupel-report";
   }
 } // namespace graupel

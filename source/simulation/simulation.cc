@@ -1,3 +1,6 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The Graupel authors
+
 #include <graupel/base/files.h>
 #include <graupel/base/read_numbers.h>
 #include <graupel/dem/bed/bed_profiles.h>
@@ -8,6 +11,9 @@
 #include <graupel/simulation/phases/original_bed.h>
 #include <graupel/simulation/phases/packing_phases.h>
 #include <graupel/simulation/simulation.h>
+
+#include <deal.II/dofs/dof_handler.h>
+#include <deal.II/fe/fe_q.h>
 
 #include <iomanip>
 #include <sstream>
@@ -20,6 +26,27 @@ namespace graupel
   {
     // Simulated time between two rows of monitors.csv while the bed is packed [s].
     constexpr double packing_observation = 1e-2;
+
+    // Three of flux and one of pressure at each node.
+    unsigned long
+    n_unknowns(const VesselMesh &mesh)
+    {
+      dealii::DoFHandler<3> dofs(mesh.triangulation());
+      dofs.distribute_dofs(dealii::FE_Q<3>(1));
+      return 4ul * dofs.n_dofs();
+    }
+
+    // What the run will be and cost, by the estimate of --check.
+    std::string
+    describe_size(const RunParameters &parameters, const unsigned int n_ranks)
+    {
+      const RunSize size = expected_size(parameters);
+      return "expected, within a factor of two or three: " + text_of(size.particles) +
+             " particles, " + text_of(1e-9 * size.memory + memory_of_rank * n_ranks, 3) +
+             " GB of memory, " + text_of(1e-9 * size.disk, 3) + " GB on the disk, " +
+             (size.cases_may_end ? "at most " : "") + spoken_duration(size.cpu_seconds) +
+             " of CPU time";
+    }
 
     // Tells the height of the bed, its void fraction and how it is supported.
     std::string
@@ -34,8 +61,10 @@ namespace graupel
         text << ", height " << *bed.height * 1e3 << " mm, mean void fraction "
              << *bed.mean_void_fraction;
       if (dem.weight() > 0.)
-        text << "; bottom " << dem.bottom_force() << " N + wall " << dem.wall_force()
-             << " N of " << dem.supported_weight() << " N that all walls carry = "
+        // A negative nothing is nothing.
+        text << "; bottom " << dem.bottom_force() + 0. << " N + wall "
+             << dem.wall_force() + 0. << " N of " << dem.supported_weight()
+             << " N that all walls carry = "
              << dem.supported_weight() / dem.weight() * 100. << " % of the weight";
       return text.str();
     }
@@ -70,13 +99,19 @@ namespace graupel
   {
     std::ostringstream mesh_line;
     mesh_line << "mesh: " << state.mesh.triangulation().n_global_active_cells()
-              << " cells, on " << mpi::n_mpi_processes(state.communicator) << " rank(s)";
+              << " cells";
+    if (state.parameters.sweep.has_fluid())
+      mesh_line << ", " << n_unknowns(state.mesh) << " unknowns of the flow";
     state.progress.say(mesh_line.str());
+    state.progress.say(
+      describe_size(state.parameters, mpi::n_mpi_processes(state.communicator)));
     if (const std::string difference = state.dem.vessel_shape().difference();
         !difference.empty())
       state.progress.say("warning: " + difference);
     for (const std::string &warning : warnings(state.parameters))
       state.progress.say("warning: " + warning);
+    for (const std::string &note : notes(state.parameters))
+      state.progress.say("note: " + note);
     warn_of_disk();
     if (checkpoint)
       go_on_from(checkpoint->state);

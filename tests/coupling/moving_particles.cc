@@ -1,3 +1,6 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The Graupel authors
+
 #include "tube.h"
 
 #include <graupel/dem/particles/dem_error.h>

@@ -1,3 +1,6 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The Graupel authors
+
 #include <graupel/base/parameters.h>
 #include <graupel/simulation/simulation.h>
 
@@ -10,7 +13,7 @@ using namespace graupel;
 
 namespace
 {
-  // prm/packed-bed/short.prm with @p overrides, run whole on all ranks.
+  // tests/cases/shallow.prm with @p overrides, run whole on all ranks.
   Summary
   run(const std::vector<std::string> &overrides)
   {
@@ -18,7 +21,7 @@ namespace
     RunParameters            parameters;
     parameters.declare(prm);
     ParameterFile file(prm);
-    file.read(GRAUPEL_SOURCE_DIR "/prm/packed-bed/short.prm");
+    file.read(GRAUPEL_SOURCE_DIR "/tests/cases/shallow.prm");
     for (const std::string &assignment : overrides)
       file.set(assignment);
     parameters.texts = file.texts();
@@ -29,7 +32,7 @@ namespace
     {
       ResultFiles files(directory.string(), MPI_COMM_WORLD);
       Progress    silent;
-      Simulation  simulation(parameters, "short.prm", files, silent, MPI_COMM_WORLD);
+      Simulation  simulation(parameters, "shallow.prm", files, silent, MPI_COMM_WORLD);
       files.begin();
       simulation.run();
       summary = simulation.result();

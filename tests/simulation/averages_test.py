@@ -1,3 +1,5 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright (C) 2026 The Graupel authors
 """Means over time, compared with analysis: of a flow that swings, of spheres that fall, of a
 bed that rests. Called with the path of the binary.
 """

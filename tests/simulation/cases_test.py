@@ -1,3 +1,5 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright (C) 2026 The Graupel authors
 """Small inputs that go wrong easily, each run to its right value: tests/cases/.
 
 Called with the path of the binary. Where two runs are compared, the second one is the
@@ -299,7 +301,7 @@ class Ranks(CaseTest):
             "Output/report": "false",
         }
         alone, *others = (
-            self.run_file(ROOT / "prm" / "packed-bed" / "short.prm", values, ranks=ranks)
+            self.run_file(ROOT / "tests" / "cases" / "shallow.prm", values, ranks=ranks)
             for ranks in (1, 2, 3)
         )
         for run in (alone, *others):

@@ -1,3 +1,5 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright (C) 2026 The Graupel authors
 """The program as a user meets it: its options, what bad input gets, and a short
 run alone and on two ranks. Called with the path of the binary."""
 
@@ -10,7 +12,7 @@ from runs import ROOT, call, main
 
 from common.program import FAULT
 
-SHORT = ROOT / "prm" / "packed-bed" / "short.prm"
+SHORT = ROOT / "tests" / "cases" / "shallow.prm"
 
 
 class Options(unittest.TestCase):

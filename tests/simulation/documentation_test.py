@@ -1,3 +1,5 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright (C) 2026 The Graupel authors
 """Whether the documentation says what is: its commands can run, its files, parameters, functions
 and pages exist, its patches apply. Called with the path of the binary.
 """
@@ -20,7 +22,7 @@ DOC = ROOT / "doc"
 MADE = ("generated",)  # what Sphinx makes
 PAGES = sorted(
     file
-    for file in [ROOT / "README.md", ROOT / "CHANGELOG.md", *DOC.rglob("*.md")]
+    for file in [*ROOT.glob("*.md"), *DOC.rglob("*.md")]
     if not set(MADE) & set(file.relative_to(ROOT).parts)
 )
 FENCE = re.compile(r"^```(\S*)\n(.*?)^```", re.M | re.S)
@@ -230,6 +232,32 @@ class Links(unittest.TestCase):
             if not set(MADE) & set(page.relative_to(DOC).parts) and page.name != "index.md":
                 with self.subTest(page=page.name):
                     self.assertIn(page.resolve(), listed)
+
+
+class Licence(unittest.TestCase):
+    """Each file of code says under which licence it is."""
+
+    SUFFIXES = (".h", ".cc", ".py", ".js", ".css", ".cmake", ".in")
+
+    def is_code(self, file):
+        if file.suffix in self.SUFFIXES or file.name == "CMakeLists.txt":
+            return True
+        with file.open("rb") as stream:
+            return stream.read(2) == b"#!"
+
+    def test_each_file_names_it(self):
+        folders = ("benchmarks", "cmake", "doc", "include", "prm", "python", "scripts", "source", "tests")
+        files = [file for folder in folders for file in (ROOT / folder).rglob("*")]
+        looked = 0
+        for file in [ROOT / "CMakeLists.txt", *files]:
+            if "__pycache__" in file.parts or not file.is_file() or not self.is_code(file):
+                continue
+            looked += 1
+            top = file.read_text(encoding="utf-8").splitlines()[:3]
+            with self.subTest(file=file.relative_to(ROOT)):
+                self.assertIn("SPDX-License-Identifier: LGPL-2.1-or-later", " ".join(top))
+                self.assertRegex(" ".join(top), r"Copyright \(C\) 20\d\d ")
+        self.assertGreater(looked, 450)
 
 
 class Patches(unittest.TestCase):

@@ -1,3 +1,5 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright (C) 2026 The Graupel authors
 """What a figure must not do: cover data with a legend, or a label with another one."""
 
 import itertools

@@ -1,9 +1,12 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright (C) 2026 The Graupel authors
 """What other programs read of a run: its files for ParaView, lists of particles, the report and
 a picture. Called with the path of the binary.
 """
 
 import importlib.util
 import os
+import re
 import shutil
 import subprocess
 import unittest
@@ -14,7 +17,7 @@ import numpy as np
 
 import graupel
 
-SHORT = ROOT / "prm" / "packed-bed" / "short.prm"
+SHORT = ROOT / "tests" / "cases" / "shallow.prm"
 # Of numbers in four bytes.
 SINGLE = 1e-6
 
@@ -162,6 +165,66 @@ class Lists(RunTest):
             )
 
 
+class Log(RunTest):
+    """What log.txt says."""
+
+    FRICTION = "Contact/particle friction"
+
+    def log_of(self, run):
+        return (run.directory / "log.txt").read_text(encoding="utf-8")
+
+    def test_it_opens_with_what_the_run_is(self):
+        run = self.run_file(SHORT, {"Output/report": "false", "Flow/superficial velocities": "0.3, 0.5"})
+        self.assertEqual(run.status, 0, run)
+        first, second, third, *_ = self.log_of(run).splitlines()
+        self.assertRegex(
+            first, r"^graupel \d+\.\d+\.\d+.*, 20\d\d-\d\d-\d\d \d\d:\d\d:\d\d UTC, on \S+, 1 rank$"
+        )
+        self.assertIn(f"{Program.path} {SHORT} --set Output/report=false", second)
+        self.assertIn("--set 'Flow/superficial velocities=0.3, 0.5'", second)
+        self.assertIn("at most", self.log_of(run).splitlines()[3])  # the cases end when steady
+        cells, unknowns = map(int, re.findall(r"\d+", third))
+        self.assertEqual(cells, run.rows("monitors.csv")[-1]["cells"])
+        # Three of flux and one of pressure in each corner, which cells have each for itself.
+        points = np.round(graupel.Run(run.directory).fields().points, 7)
+        self.assertEqual(unknowns, 4 * len(np.unique(points, axis=0)))
+
+    def test_a_phase_is_a_line(self):
+        values = {"Output/report": "false", "Filling/count": 20, "Flow/mode": "steady"}
+        log = self.log_of(self.run_file(SHORT, values))
+        for line in (
+            r"^fill: 20 particles in [\d.]+ s of simulated time; took .*$",
+            r"^settle: at rest after [\d.]+ s of simulated time; took .*$",
+            r"^flow 1/2, superficial velocity 0.3 m/s: steady flow after \d+ linear systems; took .*$",
+        ):
+            self.assertEqual(len(re.findall(line, log, re.M)), 1, log)
+        for start in ("fill:", "settle:", "flow 1/2", "flow 2/2"):
+            self.assertEqual(log.count(start), 1, log)
+        for word in ("V_s", "-0 N", "from 0"):
+            self.assertNotIn(word, log)
+
+    def test_a_moving_flow_tells_its_steps(self):
+        values = {"Output/report": "false", "Filling/count": 20, "Flow/superficial velocities": 0.3,
+                  "Flow/stop when": "flow-throughs", "Flow/duration": 0.05}  # fmt: skip
+        log = self.log_of(self.run_file(SHORT, values))
+        told = "after 0.05 s of simulated time; steps of the fluid: 5 by Flow/time step; took "
+        self.assertIn(told, log)
+
+    def test_what_is_to_be_known_is_noted(self):
+        quick = {"Output/report": "false", "Filling/count": 20, "Flow/mode": "steady"}
+        both = "while the bed is filled and settles: Contact/packing particle friction = 0.08; " \
+               "from then on: Contact/particle friction = 0.3"  # fmt: skip
+        no_rolling = {"Contact/particle rolling resistance": 0, "Contact/wall rolling resistance": 0}
+        coarse = "cells of 0.0042 m are longer than a simulated particle (0.0032 m)"
+        run = self.run_file(SHORT, {**quick, **no_rolling, self.FRICTION: 0.3})
+        check = self.run_file(SHORT, {**no_rolling, self.FRICTION: 0.3}, "--check")
+        for text in (self.log_of(run), check.said):
+            self.assertIn(f"note: {both}", text)
+            self.assertIn(f"note: {coarse}", text)
+        resolved = self.run_file(SHORT, {**no_rolling, "Mesh/cell size": 2.1e-3}, "--check")
+        self.assertNotIn("note:", resolved.said)
+
+
 class Report(RunTest):
     """What the program says of its report."""
 
@@ -180,7 +243,7 @@ class Report(RunTest):
             [Program.path, SHORT, "--set", "Filling/count=20", "--output", output],
             capture_output=True, text=True, env=environment,
         )  # fmt: skip
-        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(done.returncode, 1, done.stderr)
         self.assertFalse((output / "report.html").exists())
         self.assertNotIn("open report.html", done.stdout)
         self.assertIn(f"Results are in {output}", done.stdout)
@@ -188,7 +251,7 @@ class Report(RunTest):
         for text in (done.stderr, log):
             self.assertIn("No report was made", text)
             self.assertIn("apt-get install python3-matplotlib", text)
-            self.assertIn(f"scripts/report' '{output}'", text)
+            self.assertIn(f"graupel-report' '{output}'", text)
 
 
 if __name__ == "__main__":

@@ -1,3 +1,5 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright (C) 2026 The Graupel authors
 """Runs of the program that end before their time, for the tests of how they go on."""
 
 import contextlib

@@ -1,3 +1,5 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright (C) 2026 The Graupel authors
 """A run that is killed, asked to stop or at its time limit in any phase, and gone on with, is the
 run that was not: bit by bit on the same number of ranks. Called with the path of the binary.
 """

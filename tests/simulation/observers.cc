@@ -1,3 +1,6 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The Graupel authors
+
 #include <graupel/base/parameters.h>
 #include <graupel/simulation/files/may_change.h>
 #include <graupel/simulation/observers/case_result.h>
@@ -105,6 +108,7 @@ TEST(Quantities, WriteWhatThereIsAndNothingElse)
   EXPECT_EQ(csv_row(monitors(), back), csv_row(monitors(), row.values));
   EXPECT_EQ(told_text("drop", 12.3456, 1., "Pa"), "drop 12.35 Pa");
   EXPECT_EQ(told_text("drop", {}, 1., "Pa"), "");
+  EXPECT_EQ(told_text("force", -0., 1., "N"), "force 0 N");
 }
 
 TEST(Quantities, HaveNamesOfTheirOwn)

@@ -1,3 +1,5 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright (C) 2026 The Graupel authors
 """The examples prm/one-particle, each against the exact ordinary differential equation of its
 laws, and the forces of prm's section Forces in runs of the program. Called with the path of
 the binary.

@@ -1,3 +1,5 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright (C) 2026 The Graupel authors
 """Whether doc/output-files.md and what runs write are the same, in both directions: files, columns,
 fields, keys and figures. Called with the path of the binary.
 """
@@ -11,7 +13,7 @@ from xml.etree import ElementTree
 from runs import ROOT, RunTest, main
 
 PAGE = ROOT / "doc" / "output-files.md"
-SHORT = ROOT / "prm" / "packed-bed" / "short.prm"
+SHORT = ROOT / "tests" / "cases" / "shallow.prm"
 STUDY = ROOT / "prm" / "studies" / "manufactured-solution.prm"
 # Of everything something; 64 steps of a window make a spectrum.
 EVERYTHING = {

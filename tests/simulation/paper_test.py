@@ -1,4 +1,6 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright (C) 2026 The Graupel authors
 """Tests what scripts/paper.py makes of runs: onset and plateau."""
 
 import math

@@ -1,3 +1,5 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright (C) 2026 The Graupel authors
 """An output directory such as a run writes, for report_test.py."""
 
 import csv

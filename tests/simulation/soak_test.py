@@ -1,3 +1,5 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright (C) 2026 The Graupel authors
 """Long runs: what is conserved stays so, memory and open files stay as they are, and a run that is
 killed again and again ends as the one that is not. Called with the path of the binary.
 """

@@ -1,3 +1,5 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright (C) 2026 The Graupel authors
 """Whether the frame of scripts/validate works: every case can run, a short one runs and makes its
 page, and its arithmetic is right. Called with the path of the binary.
 """

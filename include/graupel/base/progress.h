@@ -1,3 +1,6 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The Graupel authors
+
 #ifndef graupel_base_progress_h
 #define graupel_base_progress_h
 
@@ -12,7 +15,7 @@ namespace graupel
    * simulated seconds per second, and the time that is left.
    *
    * On a terminal one line is rewritten in place; into a file or a pipe, and
-   * into the log, goes a line every ten seconds and at every change of phase.
+   * into the log, goes a line every ten seconds and at the end of a phase.
    * Only the rank that was given streams writes.
    */
   class Progress
@@ -33,18 +36,29 @@ namespace graupel
              std::ostream *log,
              const Clock  &clock = steady_seconds);
 
-    /** A phase begins that leads from @p begin to @p end: simulated times [s], or
-     * counts of another @p unit. */
-    void start_phase(const std::string &name,
-                     const double       begin,
-                     const double       end,
-                     const std::string &unit = "s");
+    /** Where a phase goes. */
+    struct Way
+    {
+      double begin = 0., end = 1.;
+      /** Of these two; without one they are a share of the whole. */
+      std::string unit = "s";
+      /** Whether the phase may be done before its end, so that nobody knows how much of
+       * it is left. */
+      bool end_is_limit = false;
+    };
 
-    /** The simulated time has come to @p time [s]. Cheap: may be called every step. */
+    /** A phase begins. */
+    void start_phase(const std::string &name, const Way &way);
+
+    /** The phase goes on from here, and is measured otherwise. */
+    void go_on(const Way &way);
+
+    /** The phase has come to @p time [s], or of another unit. Cheap: may be called every
+     * step. */
     void update(const double time);
 
-    /** Ends the phase, with a last line. */
-    void finish_phase();
+    /** Ends the phase, with a line that says what has been @p done. */
+    void finish_phase(const std::string &done);
 
     /** Writes a line of its own that the progress line does not overwrite. */
     void say(const std::string &line);
@@ -60,8 +74,9 @@ namespace graupel
     bool          rewrites = false;
     Clock         clock    = steady_seconds;
 
-    std::string phase, unit;
-    double      begin = 0., end = 0., time = 0.;
+    std::string phase;
+    Way         way;
+    double      time          = 0.;
     double      wall_at_begin = 0.;
     // Of the first update of the phase: a resumed one begins in its middle.
     double first_time = 0., first_wall = 0.;

@@ -1,3 +1,6 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The Graupel authors
+
 #ifndef graupel_fluid_residual_minimizer_h
 #define graupel_fluid_residual_minimizer_h
 

@@ -1,3 +1,6 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The Graupel authors
+
 #ifndef graupel_simulation_report_h
 #define graupel_simulation_report_h
 
@@ -13,8 +16,11 @@ namespace graupel
    */
   bool make_report(const std::string &directory, const std::string &script);
 
-  /** The same with scripts/report of the tree that the program was built from. */
-  bool make_report(const std::string &directory);
+  /**
+   * Where the program looks for that script: graupel-report beside itself, in the folder
+   * of the build as where it is installed. It need not be there.
+   */
+  std::string report_script();
 } // namespace graupel
 
 #endif

@@ -1,3 +1,5 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright (C) 2026 The Graupel authors
 """The paper's column beyond onset: mean drop against weight."""
 
 import numpy as np

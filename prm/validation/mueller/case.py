@@ -1,3 +1,5 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright (C) 2026 The Graupel authors
 """A bubbling bed seen by magnetic resonance: Mueller et al. (2008, 2009)."""
 
 import csv

@@ -1,3 +1,5 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright (C) 2026 The Graupel authors
 """Minimum fluidisation of polyethylene beads, measured at NETL, from scaled spheres."""
 
 from common.fluidisation import ergun_onset, onset

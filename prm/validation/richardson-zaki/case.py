@@ -1,3 +1,5 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright (C) 2026 The Graupel authors
 """Expansion of beds of steel spheres in water, Richardson & Zaki (1954)."""
 
 import math

@@ -1,3 +1,5 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright (C) 2026 The Graupel authors
 """Onset of fluidisation in shallow beds of five materials, in air and in water."""
 
 from common.fluidisation import ergun_onset, onset

@@ -1,3 +1,5 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright (C) 2026 The Graupel authors
 """A slugging bed: van Wachem et al. (2001)."""
 
 import numpy as np

@@ -1,3 +1,5 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright (C) 2026 The Graupel authors
 """Writes report.html from the output directory of a run, or a page that compares runs.
 
     scripts/report DIR                          (installed: graupel-report)

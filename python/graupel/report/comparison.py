@@ -1,3 +1,5 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright (C) 2026 The Graupel authors
 """One page on several runs: what differs in their parameters, their results side by side, and
 their curves in the same figures."""
 

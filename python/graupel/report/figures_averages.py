@@ -1,3 +1,5 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright (C) 2026 The Graupel authors
 """Figures of a bed that moves: its bubbles, and its means over time."""
 
 import numpy as np

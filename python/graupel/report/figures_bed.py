@@ -1,3 +1,5 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright (C) 2026 The Graupel authors
 """Figures of the bed as a whole: pressure, deviation from Ergun, forces and height."""
 
 import numpy as np

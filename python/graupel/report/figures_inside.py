@@ -1,3 +1,5 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright (C) 2026 The Graupel authors
 """Figures of the inside of the bed: the mid-plane, and the profile from the wall inwards."""
 
 import numpy as np

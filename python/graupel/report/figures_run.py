@@ -1,3 +1,5 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright (C) 2026 The Graupel authors
 """Figures of the run itself: the monitors over time, and where the time went."""
 
 import numpy as np

@@ -1,3 +1,5 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright (C) 2026 The Graupel authors
 """Figures of the settled bed before the flow: packing at the wall, and what carries the weight."""
 
 import numpy as np

@@ -1,3 +1,5 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright (C) 2026 The Graupel authors
 """Figures over time of what not every run has: forces on walls, feeds, open ends, probes."""
 
 import numpy as np

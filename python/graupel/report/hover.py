@@ -1,3 +1,5 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright (C) 2026 The Graupel authors
 """What the page shows under the pointer: the values of curves and images, by their place."""
 
 import base64

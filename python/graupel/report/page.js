@@ -1,3 +1,6 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The Graupel authors
+
 // What needs a script: values under the pointer, and the choice of a flow case. Without it
 // the page shows all cases.
 (() => {

@@ -1,3 +1,5 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright (C) 2026 The Graupel authors
 """The page: sections and captions. Nothing in it is fetched from elsewhere."""
 
 import json

@@ -1,3 +1,5 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright (C) 2026 The Graupel authors
 """What a run is compared with: Ergun's equation, and the paper that it reproduces.
 
 Paper: M. Ricklick, O. Baran, Analytical scaling of DEM particles for efficient

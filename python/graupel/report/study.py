@@ -1,3 +1,5 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright (C) 2026 The Graupel authors
 """The report of a refinement study: its table, and how each quantity converges."""
 
 from html import escape

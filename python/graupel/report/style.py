@@ -1,3 +1,5 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright (C) 2026 The Graupel authors
 """How the figures look, and how they reach the page and the folder of PNG files."""
 
 import functools

@@ -1,3 +1,6 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The Graupel authors
+
 #include <graupel/dem/vessel/mesh_planes.h>
 #include <graupel/simulation/files/checkpoint.h>
 #include <graupel/simulation/files/input_files.h>

@@ -1,3 +1,6 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The Graupel authors
+
 #include <graupel/simulation/observers/quantity.h>
 
 #include <cmath>
@@ -48,7 +51,8 @@ namespace graupel
     if (unit == "flag")
       return *value != 0. ? told : "";
     std::ostringstream text;
-    text << std::setprecision(4) << told << ' ' << *value * factor
+    // A negative nothing is nothing.
+    text << std::setprecision(4) << told << ' ' << *value * factor + 0.
          << (unit.empty() ? "" : " ") << unit;
     return text.str();
   }

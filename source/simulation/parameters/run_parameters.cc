@@ -1,4 +1,8 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The Graupel authors
+
 #include <graupel/base/parameters.h>
+#include <graupel/base/progress.h>
 #include <graupel/base/read_numbers.h>
 #include <graupel/closures/bed_correlations.h>
 #include <graupel/dem/bed/wall_layer.h>
@@ -236,9 +240,13 @@ namespace graupel
     line("particles", size.particles, "");
     line("substeps of the particles", size.substeps, "");
     line("steps of the fluid", size.fluid_steps, "");
-    line("memory, beside 0.15 GB a rank", 1e-9 * size.memory, "GB");
+    line("memory, beside " + text_of(memory_of_rank, 2) + " GB a rank",
+         1e-9 * size.memory,
+         "GB");
     line("room on the disk", 1e-9 * size.disk, "GB");
-    line("CPU time", size.cpu_seconds / 3600., "h");
+    line(size.cases_may_end ? "CPU time, at most" : "CPU time",
+         spoken_duration(size.cpu_seconds),
+         "");
     text << "Steps\n";
     line("characteristic (Rayleigh) time of a contact", dem.characteristic_time(), "s");
     line("substep of the particles", dem.substep(), "s");
@@ -272,7 +280,7 @@ namespace graupel
         const double weight = (1. - guessed_void_fraction) *
                               (dem.particles.density - fluid.density) *
                               dem.particles.gravity;
-        text << "  V_s = " << velocity
+        text << "  superficial velocity " << velocity
              << " m/s: Re = " << fluid.density * velocity * diameter / fluid.viscosity
              << ", Ergun's gradient " << gradient << " Pa/m = " << gradient / weight
              << " of the weight, at most "
@@ -284,6 +292,8 @@ namespace graupel
       }
     for (const std::string &warning : warnings(*this))
       text << "warning: " << warning << '\n';
+    for (const std::string &note : notes(*this))
+      text << "note: " << note << '\n';
     return text.str();
   }
 } // namespace graupel

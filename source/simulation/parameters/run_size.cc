@@ -1,3 +1,6 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The Graupel authors
+
 #include <graupel/base/parameters.h>
 #include <graupel/base/read_numbers.h>
 #include <graupel/simulation/parameters/run_size.h>
@@ -111,6 +114,8 @@ namespace graupel
                 size.outputs * (shown_cell * fields + shown_particle * size.particles);
     size.cpu_seconds = time_of_particle * size.particles * size.substeps +
                        time_of_cell * fields * size.fluid_steps;
+    size.cases_may_end =
+      parameters.sweep.mode == "transient" && parameters.sweep.stop_when == "steady";
     return size;
   }
 

@@ -1,3 +1,7 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The Graupel authors
+
+#include <graupel/base/read_numbers.h>
 #include <graupel/simulation/parameters/step_limits.h>
 
 #include <limits>
@@ -87,15 +91,24 @@ namespace graupel
       said.push_back(text.str());
     }
 
+    double
+    longest_edge(const RunParameters &parameters)
+    {
+      return std::max(parameters.mesh.cell_size, parameters.mesh.cell_height);
+    }
+
+    bool
+    has_bed(const RunParameters &parameters)
+    {
+      return parameters.filling.method != "none" && parameters.filling.count != 1;
+    }
+
     void
     warn_of_cells(const RunParameters &parameters, std::vector<std::string> &said)
     {
-      const double edge =
-        std::max(parameters.mesh.cell_size, parameters.mesh.cell_height);
+      const double edge     = longest_edge(parameters);
       const double diameter = parameters.simulated_diameter();
-      const bool   has_bed =
-        parameters.filling.method != "none" && parameters.filling.count != 1;
-      if (!has_bed || edge <= largest_cell * diameter)
+      if (!has_bed(parameters) || edge <= largest_cell * diameter)
         return;
       std::ostringstream text;
       text << "cells of " << edge << " m are " << edge / diameter
@@ -104,6 +117,58 @@ namespace graupel
               "Try Mesh/cell size = "
            << 2. * diameter << ", or adaption";
       said.push_back(text.str());
+    }
+
+    void
+    note_cells(const RunParameters &parameters, std::vector<std::string> &said)
+    {
+      const double edge      = longest_edge(parameters);
+      const double diameter  = parameters.simulated_diameter();
+      const double deviation = std::sqrt(2.) * parameters.filter_length();
+      if (!has_bed(parameters) || edge > largest_cell * diameter)
+        return; // or warned of
+      const bool beyond_filter = edge > deviation * (1. + 1e-6);
+      if (edge <= diameter * (1. + 1e-6) && !beyond_filter)
+        return;
+      std::ostringstream text;
+      text << "cells of " << edge << " m are longer than ";
+      if (edge > diameter * (1. + 1e-6))
+        text << "a simulated particle (" << diameter << " m)"
+             << (beyond_filter ? " and " : "");
+      if (beyond_filter)
+        text << "the standard deviation of the filter (" << deviation << " m)";
+      text << ": the ends of a bed are smeared over one of them, and a shallow bed loses "
+              "some per cent of its pressure drop; its middle does not. "
+              "Mesh/cell size = "
+           << 0.65 * diameter << " resolves them";
+      said.push_back(text.str());
+    }
+
+    void
+    note_friction(const RunParameters &parameters, std::vector<std::string> &said)
+    {
+      const ContactParameters &contact = parameters.dem.contact;
+      std::string              before, after;
+      const auto               compare =
+        [&](const std::string &name, const double packing, const double flow) {
+          if (packing == flow)
+            return;
+          before += (before.empty() ? "Contact/packing " : ", Contact/packing ") + name +
+                    " = " + text_of(packing);
+          after +=
+            (after.empty() ? "Contact/" : ", Contact/") + name + " = " + text_of(flow);
+        };
+      const Surface &particle = contact.particle_surface, &wall = contact.wall_surface;
+      compare("particle friction", contact.packing_particle_friction, particle.friction);
+      compare("wall friction", contact.packing_wall_friction, wall.friction);
+      compare("particle rolling resistance",
+              contact.packing_particle_rolling,
+              particle.rolling_resistance);
+      compare(
+        "wall rolling resistance", contact.packing_wall_rolling, wall.rolling_resistance);
+      if (!before.empty())
+        said.push_back("while the bed is filled and settles: " + before +
+                       "; from then on: " + after);
     }
   } // namespace
 
@@ -146,6 +211,17 @@ namespace graupel
     warn_of_filter(parameters, said);
     warn_of_scale(parameters, said);
     warn_of_cells(parameters, said);
+    return said;
+  }
+
+  std::vector<std::string>
+  notes(const RunParameters &parameters)
+  {
+    std::vector<std::string> said;
+    if (parameters.sweep.has_fluid())
+      note_cells(parameters, said);
+    if (has_bed(parameters) && parameters.filling.start_from.empty())
+      note_friction(parameters, said);
     return said;
   }
 } // namespace graupel

@@ -1,3 +1,6 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The Graupel authors
+
 #include <graupel/simulation/observers/case_result.h>
 #include <graupel/simulation/phases/flow_case.h>
 #include <graupel/simulation/state/bytes.h>
@@ -59,14 +62,8 @@ namespace graupel
     std::ostringstream     name;
     name << "flow " << number << "/" << sweep.cases().size();
     if (frame.velocity)
-      name << ", V_s " << *frame.velocity << " m/s";
-    if (sweep.mode == "steady" || sweep.mode == "automatic")
-      state.progress.start_phase(name.str(), 0., sweep.maximum_solves, "solves");
-    else
-      state.progress.start_phase(name.str(),
-                                 0.,
-                                 sweep.case_duration(frame.velocity.value_or(0.),
-                                                     state.parameters.cylinder.height));
+      name << ", superficial velocity " << *frame.velocity << " m/s";
+    state.progress.start_phase(name.str(), strategy->way());
   }
 
   void
@@ -132,7 +129,7 @@ namespace graupel
   void
   FlowCase::end()
   {
-    state.progress.finish_phase();
+    state.progress.finish_phase(strategy->told());
     if (!strategy->is_steady() && frame.velocity &&
         frame.time() < state.parameters.sweep.ramp_time)
       state.progress.say("warning: the case ended while its velocity still ramped up");

@@ -1,9 +1,14 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The Graupel authors
+
 #include <graupel/simulation/phases/packing_phases.h>
 #include <graupel/simulation/state/bytes.h>
 
 #include <boost/serialization/string.hpp>
 #include <boost/serialization/utility.hpp>
 #include <boost/serialization/vector.hpp>
+
+#include <sstream>
 
 namespace graupel
 {
@@ -34,7 +39,7 @@ namespace graupel
   void
   FillingPhase::begin()
   {
-    state.progress.start_phase(state.name + "fill", 0., 1.);
+    state.progress.start_phase(state.name + "fill", {0., 1., "", false});
   }
 
   bool
@@ -52,7 +57,10 @@ namespace graupel
   void
   FillingPhase::end()
   {
-    state.progress.finish_phase();
+    std::ostringstream text;
+    text << state.dem.n_global() << " particles in " << filling.time()
+         << " s of simulated time";
+    state.progress.finish_phase(text.str());
   }
 
   Moment
@@ -126,7 +134,8 @@ namespace graupel
   void
   SettlingPhase::begin()
   {
-    state.progress.start_phase(state.name + "settle", 0., parameters.maximum_time);
+    state.progress.start_phase(state.name + "settle",
+                               {0., parameters.maximum_time, "s", true});
   }
 
   bool
@@ -144,7 +153,11 @@ namespace graupel
   void
   SettlingPhase::end()
   {
-    state.progress.finish_phase();
+    std::ostringstream text;
+    text << "at rest after " << settling.time() << " s of simulated time";
+    if (settling.n_taps() > 0)
+      text << " and " << settling.n_taps() << " taps";
+    state.progress.finish_phase(text.str());
   }
 
   Moment

@@ -1,3 +1,6 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The Graupel authors
+
 #include <graupel/simulation/parameters/step_limits.h>
 #include <graupel/simulation/state/bytes.h>
 #include <graupel/simulation/strategies/moving_flow.h>
@@ -48,10 +51,7 @@ namespace graupel
     const SweepParameters &sweep = frame.state.parameters.sweep;
     if (is_over(frame.time(), duration) ||
         (sweep.stop_when == "steady" && frame.steady.is_steady()))
-      {
-        tell_steps();
-        return false;
-      }
+      return false;
     SimulationState &state = frame.state;
     const double     aim   = next_step(duration - frame.time());
     state.fluid->set_superficial_velocity(frame.velocity_at(frame.time() + aim));
@@ -91,9 +91,8 @@ namespace graupel
       for (const Limit &limit : limits())
         keep_to(limit);
     keep_to({step_limit, "a step that has failed"});
-    const double step = even_step(remaining, rule.step);
-    tell_what_rules(rule.name, step);
-    return step;
+    ++steps_by[rule.name];
+    return even_step(remaining, rule.step);
   }
 
   void
@@ -108,24 +107,21 @@ namespace graupel
     frame.state.progress.say(text.str());
   }
 
-  void
-  MovingFlow::tell_what_rules(const std::string &rule, const double step)
+  Progress::Way
+  MovingFlow::way() const
   {
-    if (steps_by[rule]++ > 0)
-      return;
-    std::ostringstream text;
-    text << "at " << frame.state.time << " s: steps of " << step << " s by " << rule;
-    frame.state.progress.say(text.str());
+    return {0., duration, "s", frame.state.parameters.sweep.stop_when == "steady"};
   }
 
-  void
-  MovingFlow::tell_steps() const
+  std::string
+  MovingFlow::told() const
   {
     std::ostringstream text;
-    text << "steps of the fluid";
+    text << (frame.steady.is_steady() ? "steady" : "not steady") << " after "
+         << frame.time() << " s of simulated time; steps of the fluid";
     for (const auto &[rule, n] : steps_by)
       text << (&rule == &steps_by.begin()->first ? ": " : ", ") << n << " by " << rule;
-    frame.state.progress.say(text.str());
+    return text.str();
   }
 
   double
@@ -182,6 +178,20 @@ namespace graupel
     frame.move_particles(step);
     frame.state.progress.update(frame.time());
     return true;
+  }
+
+  Progress::Way
+  ParticlesAlone::way() const
+  {
+    return {0., frame.state.parameters.sweep.duration, "s", false};
+  }
+
+  std::string
+  ParticlesAlone::told() const
+  {
+    std::ostringstream text;
+    text << frame.time() << " s of simulated time";
+    return text.str();
   }
 
   std::string

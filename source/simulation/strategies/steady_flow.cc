@@ -1,3 +1,6 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The Graupel authors
+
 #include <graupel/simulation/state/bytes.h>
 #include <graupel/simulation/strategies/steady_flow.h>
 
@@ -32,12 +35,20 @@ namespace graupel
       return false;
     done   = true;
     failed = !find();
-    if (failed)
-      return false;
-    std::ostringstream text;
-    text << "steady flow after " << systems << " linear systems";
-    frame.state.progress.say(text.str());
-    return true;
+    return !failed;
+  }
+
+  Progress::Way
+  SteadyFlow::way() const
+  {
+    const double most = frame.state.parameters.sweep.maximum_solves;
+    return {0., most, "linear systems", true};
+  }
+
+  std::string
+  SteadyFlow::told() const
+  {
+    return "steady flow after " + std::to_string(systems) + " linear systems";
   }
 
   bool
@@ -147,8 +158,21 @@ namespace graupel
           "the bed does not rest against this flow: fluid and particles move");
         frame.begin = frame.state.time;
         moving.emplace(frame);
+        frame.state.progress.go_on(way());
       }
     return moving->step();
+  }
+
+  Progress::Way
+  AutomaticFlow::way() const
+  {
+    return moving ? moving->way() : steady.way();
+  }
+
+  std::string
+  AutomaticFlow::told() const
+  {
+    return moving ? moving->told() : steady.told();
   }
 
   bool

@@ -1,3 +1,6 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The Graupel authors
+
 #ifndef graupel_dem_bed_bed_profiles_h
 #define graupel_dem_bed_bed_profiles_h
 

@@ -1,3 +1,6 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The Graupel authors
+
 #ifndef graupel_simulation_parameters_run_size_h
 #define graupel_simulation_parameters_run_size_h
 
@@ -5,6 +8,9 @@
 
 namespace graupel
 {
+  /** Memory of the program itself, on each rank [GB]. */
+  constexpr double memory_of_rank = 0.15;
+
   /**
    * How large a run will be, as far as its parameters say: numbers of cells are those of
    * the mesh without adaption, particles those of the filling; all else is a guess that
@@ -21,6 +27,9 @@ namespace graupel
     double memory = 0., disk = 0.;
     /** CPU time of all ranks [s]. */
     double cpu_seconds = 0.;
+    /** Whether cases end when they are steady, so that steps and time are often far
+     * fewer. */
+    bool cases_may_end = false;
   };
 
   /** That of a run of @p parameters. Throws InputError where files cannot be read. */

@@ -1,3 +1,6 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The Graupel authors
+
 #ifndef graupel_simulation_parameters_step_limits_h
 #define graupel_simulation_parameters_step_limits_h
 
@@ -33,6 +36,11 @@ namespace graupel
   /** What a run is warned of beforehand: a step, a filter or a scale that is valid but
    * does not resolve what it should. A sentence each, with number and remedy. */
   std::vector<std::string> warnings(const RunParameters &parameters);
+
+  /** What is no mistake, but to be known when results are read: cells longer than a
+   * particle or the filter, and a friction of packing that is not that of the flow. A
+   * sentence each. */
+  std::vector<std::string> notes(const RunParameters &parameters);
 } // namespace graupel
 
 #endif

@@ -1,3 +1,6 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The Graupel authors
+
 #ifndef graupel_simulation_strategies_flow_strategy_h
 #define graupel_simulation_strategies_flow_strategy_h
 
@@ -51,6 +54,12 @@ namespace graupel
     {
       return false;
     }
+
+    /** Where it goes, for the progress line. */
+    virtual Progress::Way way() const = 0;
+
+    /** What has been done, for the log, once the case has ended. */
+    virtual std::string told() const = 0;
 
     /** For a checkpoint. */
     virtual std::string save() const                     = 0;

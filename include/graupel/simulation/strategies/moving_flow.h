@@ -1,3 +1,6 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The Graupel authors
+
 #ifndef graupel_simulation_strategies_moving_flow_h
 #define graupel_simulation_strategies_moving_flow_h
 
@@ -13,9 +16,11 @@ namespace graupel
   public:
     explicit MovingFlow(FlowFrame &frame);
 
-    bool        step() override;
-    std::string save() const override;
-    void        resume(const std::string &saved) override;
+    bool          step() override;
+    Progress::Way way() const override;
+    std::string   told() const override;
+    std::string   save() const override;
+    void          resume(const std::string &saved) override;
 
   private:
     struct Limit
@@ -29,8 +34,6 @@ namespace graupel
     double             next_step(const double remaining);
     double             step_fluid(double step);
     void               warn_of_long_steps(const double step);
-    void               tell_what_rules(const std::string &rule, const double step);
-    void               tell_steps() const;
 
     FlowFrame   &frame;
     const double duration;           // at most [s]
@@ -46,9 +49,11 @@ namespace graupel
   public:
     explicit ParticlesAlone(FlowFrame &frame);
 
-    bool        step() override;
-    std::string save() const override;
-    void        resume(const std::string &saved) override;
+    bool          step() override;
+    Progress::Way way() const override;
+    std::string   told() const override;
+    std::string   save() const override;
+    void          resume(const std::string &saved) override;
 
   private:
     FlowFrame &frame;

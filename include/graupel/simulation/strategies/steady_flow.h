@@ -1,3 +1,6 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The Graupel authors
+
 #ifndef graupel_simulation_strategies_steady_flow_h
 #define graupel_simulation_strategies_steady_flow_h
 
@@ -31,8 +34,10 @@ namespace graupel
       return failed;
     }
 
-    std::string save() const override;
-    void        resume(const std::string &saved) override;
+    Progress::Way way() const override;
+    std::string   told() const override;
+    std::string   save() const override;
+    void          resume(const std::string &saved) override;
 
   private:
     bool find();
@@ -55,10 +60,12 @@ namespace graupel
   public:
     explicit AutomaticFlow(FlowFrame &frame);
 
-    bool        step() override;
-    bool        is_steady() const override;
-    std::string save() const override;
-    void        resume(const std::string &saved) override;
+    bool          step() override;
+    bool          is_steady() const override;
+    Progress::Way way() const override;
+    std::string   told() const override;
+    std::string   save() const override;
+    void          resume(const std::string &saved) override;
 
   private:
     FlowFrame                &frame;
