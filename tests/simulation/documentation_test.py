@@ -34,6 +34,8 @@ PATH = re.compile(rf"(?<![\w/.-])(?:{'|'.join(FOLDERS)})/[\w./-]*[\w/]")
 CASE = re.compile(r"(?<![\w/.{-])[\w/-]+\.prm\b")
 # Parameter files that the reader is to write.
 UNWRITTEN = {"FILE.prm", "NAME.prm", "tests/cases/NAME.prm", "ts.prm", "parameters.prm"}
+# Where a package has the examples.
+PACKAGED = "/usr/share/graupel/"
 # Targets of the build that a command may name.
 BUILT = re.compile(r"build/(?:graupel|tests/test_\w+|benchmarks/benchmark_\w+)\b")
 SET = re.compile(r'--set (?:"([^"]*)"|(\S+))')
@@ -144,6 +146,7 @@ class Names(unittest.TestCase):
         there = [str(file) for folder in folders for file in folder.rglob("*.prm")]
         for page in PAGES:
             for name in set(CASE.findall(text_of(page))) - UNWRITTEN:
+                name = name.removeprefix(PACKAGED)
                 with self.subTest(page=page.name, file=name):
                     self.assertTrue(any(file.endswith(f"/{name}") for file in there))
 

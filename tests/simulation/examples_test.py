@@ -336,7 +336,8 @@ class Studies(ExampleTest):
         rows = self.rows_of(run, "pressure drop at 0.4 m/s")
         self.assertEqual(len(rows), 2)
         for row in rows:
-            self.assert_within(row["value"], 99.6, 0.2, "pressure drop")
+            # A build for another processor rounds otherwise and packs another bed: 100.1 Pa.
+            self.assert_close(row["value"], 99.6, 0.01, "pressure drop")
         # 1e-4 of the bed's height, what it moves while the flow sets in, is 4e-4 of the drop.
         self.assert_close(rows[1]["value"], rows[0]["value"], 1e-4, "of the finer step")
 
