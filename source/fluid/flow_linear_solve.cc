@@ -18,7 +18,7 @@ namespace graupel
     constexpr double void_round_off = 1e-13;
 
     // What a new preconditioner costs, in iterations.
-    constexpr unsigned int renewal = 16;
+    constexpr unsigned int renewal = 8;
 
     constexpr unsigned int failed = dealii::numbers::invalid_unsigned_int;
   } // namespace
@@ -142,8 +142,8 @@ namespace graupel
     boundaries.constraints().set_zero(solution);
     solution.zero_out_ghost_values();
     // A preconditioner of an earlier step may not serve any more: go on with a fresh one.
-    const unsigned int patience =
-      std::min(parameters.maximum_iterations, std::max(20u, fresh_iterations + renewal));
+    const unsigned int patience = std::min(parameters.maximum_iterations,
+                                           std::max(20u, fresh_iterations + 2 * renewal));
     unsigned int iterations = minimizer.solve(solution, rhs, tolerance, part, patience);
     if (iterations == failed)
       {
