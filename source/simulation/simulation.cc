@@ -38,9 +38,8 @@ namespace graupel
 
     // What the run will be and cost, by the estimate of --check.
     std::string
-    describe_size(const RunParameters &parameters, const unsigned int n_ranks)
+    describe_size(const RunSize &size, const unsigned int n_ranks)
     {
-      const RunSize size = expected_size(parameters);
       return "expected, within a factor of two or three: " + text_of(size.particles) +
              " particles, " + text_of(1e-9 * size.memory + memory_of_rank * n_ranks, 3) +
              " GB of memory, " + text_of(1e-9 * size.disk, 3) + " GB on the disk, " +
@@ -103,8 +102,8 @@ namespace graupel
     if (state.parameters.sweep.has_fluid())
       mesh_line << ", " << n_unknowns(state.mesh) << " unknowns of the flow";
     state.progress.say(mesh_line.str());
-    state.progress.say(
-      describe_size(state.parameters, mpi::n_mpi_processes(state.communicator)));
+    const RunSize size = expected_size(state.parameters);
+    state.progress.say(describe_size(size, mpi::n_mpi_processes(state.communicator)));
     if (const std::string difference = state.dem.vessel_shape().difference();
         !difference.empty())
       state.progress.say("warning: " + difference);
@@ -112,7 +111,7 @@ namespace graupel
       state.progress.say("warning: " + warning);
     for (const std::string &note : notes(state.parameters))
       state.progress.say("note: " + note);
-    warn_of_disk();
+    warn_of_disk(size.disk);
     if (checkpoint)
       go_on_from(checkpoint->state);
     while (phase_number < n_phases())
@@ -167,10 +166,9 @@ namespace graupel
   }
 
   void
-  Simulation::warn_of_disk() const
+  Simulation::warn_of_disk(const double needed) const
   {
-    const double needed = expected_size(state.parameters).disk;
-    const double room   = room_on_disk(files.path("log.txt"), state.communicator);
+    const double room = room_on_disk(files.path("log.txt"), state.communicator);
     if (needed > room)
       state.progress.say(
         "warning: Output/directory = " + state.parameters.output.directory +

@@ -67,22 +67,38 @@ namespace
       matrix.compress();
     }
 
-    // A diagonal in place of the pressure's diffusion.
-    dealii::TrilinosWrappers::SparseMatrix
-    diffusion(const double entry) const
-    {
-      dealii::TrilinosWrappers::SparseMatrix result;
-      result.reinit(nodes.coupling_pattern);
-      for (const auto row : result.locally_owned_range_indices())
-        result.set(row, row, entry);
-      result.compress(dealii::VectorOperation::insert);
-      return result;
-    }
-
     VesselMesh  mesh;
     NodalSpace  nodes;
     FlowMatrix  matrix;
     BlockVector vector;
+  };
+
+  // The same, and its preconditioner with a diagonal for the pressure's diffusion.
+  struct PreconditionedSystem : System
+  {
+    PreconditionedSystem()
+      : blocks(matrix)
+      , preconditioner(blocks)
+    {
+      diffusion.reinit(nodes.coupling_pattern);
+      for (const auto row : diffusion.locally_owned_range_indices())
+        diffusion.set(row, row, 40.);
+      diffusion.compress(dealii::VectorOperation::insert);
+      nodes.initialize(of_grad_div);
+    }
+
+    // Of what the matrix is now.
+    void
+    refresh()
+    {
+      blocks.take();
+      preconditioner.refresh(diffusion, of_grad_div);
+    }
+
+    NodeBlockMatrix                        blocks;
+    BlockPreconditioner                    preconditioner;
+    dealii::TrilinosWrappers::SparseMatrix diffusion;
+    NodalVector                            of_grad_div; // 0
   };
 
   // A mesh that is refined on one side, with what a flow's boundaries prescribe on it,
@@ -328,29 +344,24 @@ TEST(LinearSolver, FactorsOfAMatrixOfOneDiagonalAreItsInverse)
 TEST(LinearSolver, ThePreconditionerSolvesASystemOfATriangleByNodes)
 {
   // [A G; 0 S] with A a lower triangle at each node and 1 / S = 1 / 40 + 0.5.
-  System     system;
-  const auto entry = [](const auto row, const auto column) {
+  PreconditionedSystem system;
+  const auto           entry = [](const auto row, const auto column) {
     return row == column           ? 40.
-           : row / 4 != column / 4 ? 0.
-           : column % 4 == 3       ? 3. + row % 4
-           : row % 4 > column % 4  ? 10. * (row % 4) + column % 4
-                                   : 0.;
+                     : row / 4 != column / 4 ? 0.
+                     : column % 4 == 3       ? 3. + row % 4
+                     : row % 4 > column % 4  ? 10. * (row % 4) + column % 4
+                                             : 0.;
   };
   system.set(entry);
-  NodeBlockMatrix blocks(system.matrix);
-  blocks.take();
-  BlockPreconditioner preconditioner(blocks);
-  const auto          diffusion = system.diffusion(40.);
-  NodalVector         of_grad_div;
-  system.nodes.initialize(of_grad_div);
-  of_grad_div = 0.5;
-  preconditioner.refresh(diffusion, of_grad_div);
-  NodeBlockVector x, b, product;
+  system.of_grad_div = 0.5;
+  system.refresh();
+  const NodeBlockMatrix &blocks = system.blocks;
+  NodeBlockVector        x, b, product;
   for (NodeBlockVector *vector : {&x, &b, &product})
     blocks.initialize(*vector);
   blocks.to_nodes(b, system.vector, 1.);
   product = 1e3f; // of no consequence
-  preconditioner.vmult(x, product, b);
+  system.preconditioner.vmult(x, product, b);
   for (unsigned int node = 0; node < blocks.n_rows(); ++node)
     {
       const float *const right = b.begin() + 4 * node, *const found =
@@ -433,15 +444,9 @@ TEST(LinearSolver, AFewCyclesOfMultigridFindAPressure)
 
 TEST(LinearSolver, SolutionsAreAsExactAsDoublePrecisionAllows)
 {
-  System          system;
-  NodeBlockMatrix blocks(system.matrix);
-  blocks.take();
-  BlockPreconditioner preconditioner(blocks);
-  const auto          diffusion = system.diffusion(40.);
-  NodalVector         of_grad_div;
-  system.nodes.initialize(of_grad_div);
-  preconditioner.refresh(diffusion, of_grad_div);
-  ResidualMinimizer minimizer(system.matrix, blocks, preconditioner);
+  PreconditionedSystem system;
+  system.refresh();
+  ResidualMinimizer minimizer(system.matrix, system.blocks, system.preconditioner);
 
   BlockVector right(system.vector), found(system.vector);
   system.matrix.vmult(right, system.vector);

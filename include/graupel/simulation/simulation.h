@@ -56,7 +56,7 @@ namespace graupel
     std::size_t            n_phases() const;
     std::unique_ptr<Phase> make_phase(const std::size_t number);
     void                   run_phase(Phase &phase);
-    void                   warn_of_disk() const;
+    void                   warn_of_disk(const double needed) const;
     void                   step_or_fail(Phase &phase, bool &goes_on);
     void                   observe(Phase &phase);
     void                   present_bed();

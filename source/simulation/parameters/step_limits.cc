@@ -127,12 +127,16 @@ namespace graupel
       const double deviation = std::sqrt(2.) * parameters.filter_length();
       if (!has_bed(parameters) || edge > largest_cell * diameter)
         return; // or warned of
-      const bool beyond_filter = edge > deviation * (1. + 1e-6);
-      if (edge <= diameter * (1. + 1e-6) && !beyond_filter)
+      const auto is_longer = [edge](const double length) {
+        return edge > length * (1. + 1e-6);
+      };
+      const bool beyond_particle = is_longer(diameter),
+                 beyond_filter   = is_longer(deviation);
+      if (!beyond_particle && !beyond_filter)
         return;
       std::ostringstream text;
       text << "cells of " << edge << " m are longer than ";
-      if (edge > diameter * (1. + 1e-6))
+      if (beyond_particle)
         text << "a simulated particle (" << diameter << " m)"
              << (beyond_filter ? " and " : "");
       if (beyond_filter)
