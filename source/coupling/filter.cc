@@ -16,6 +16,8 @@ namespace graupel
   {
     // Where the Chebyshev series of the exponential is cut.
     constexpr double cut = 1e-6;
+    // Below this part of the diagonal an entry of K is round-off [-].
+    constexpr double matrix_round_off = 1e-14;
     // Half of l^2 times the largest eigenvalue up to which one polynomial serves;
     // beyond it Bessel functions come near the end of double precision.
     constexpr double largest_exponent = 200.;
@@ -100,9 +102,14 @@ namespace graupel
         double *entries;
         int    *columns_here;
         matrix.ExtractMyRowView(row, n_entries, entries, columns_here);
-        values.insert(values.end(), entries, entries + n_entries);
+        const double smallest =
+          matrix_round_off * *std::max_element(entries, entries + n_entries);
         for (int k = 0; k < n_entries; ++k)
-          columns.push_back(of_nodes.global_to_local(of_all.GID(columns_here[k])));
+          if (std::abs(entries[k]) > smallest)
+            {
+              values.push_back(entries[k]);
+              columns.push_back(of_nodes.global_to_local(of_all.GID(columns_here[k])));
+            }
         starts.push_back(values.size());
       }
     for (const unsigned int width : {1u, most_at_once})

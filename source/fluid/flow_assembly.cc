@@ -228,20 +228,11 @@ namespace graupel
   void
   FlowSolver::assemble_schur(const Medium &medium)
   {
-    schur = 0.;
+    schur.clear();
     of_grad_div.reinit(nodes.measure());
-    dealii::FullMatrix<double>                   local(nodes_per_cell, nodes_per_cell);
     dealii::Vector<double>                       local_grad_div(nodes_per_cell);
     std::vector<dealii::types::global_dof_index> indices(nodes_per_cell);
     std::vector<double>                          conductivity(space.n_cells());
-
-    const auto distribute = [&](const unsigned int cell) {
-      for (unsigned int a = 0; a < nodes_per_cell; ++a)
-        indices[a] =
-          nodes.measure().get_partitioner()->local_to_global(space.cell_nodes[cell][a]);
-      nodes.hanging_nodes.distribute_local_to_global(local, indices, schur);
-      local = 0.;
-    };
 
     // Without a prescribed pressure its level is of no consequence, but must be one.
     const double level = is_closed() ? 1. / std::pow(volume, 2. / 3.) : 0.;
@@ -266,18 +257,22 @@ namespace graupel
         const double grad_div =
           parameters.grad_div * (density * speed * state.size + viscosity) / alpha;
         local_grad_div = 0.;
+        PressureMatrix::CellMatrix local{};
         for (const ShapePoint &point : space.shapes[cell])
           for (unsigned int a = 0; a < nodes_per_cell; ++a)
             {
               local_grad_div[a] += grad_div * point.weight * point.value[a];
               for (unsigned int b = 0; b < nodes_per_cell; ++b)
-                local(a, b) += point.weight * conductivity[cell] *
+                local[a][b] += point.weight * conductivity[cell] *
                                (point.gradient[0][a] * point.gradient[0][b] +
                                 point.gradient[1][a] * point.gradient[1][b] +
                                 point.gradient[2][a] * point.gradient[2][b] +
                                 level * point.value[a] * point.value[b]);
             }
-        distribute(cell);
+        schur.add(cell, local);
+        for (unsigned int a = 0; a < nodes_per_cell; ++a)
+          indices[a] =
+            nodes.measure().get_partitioner()->local_to_global(space.cell_nodes[cell][a]);
         nodes.hanging_nodes.distribute_local_to_global(
           local_grad_div, indices, of_grad_div);
       }
@@ -285,12 +280,13 @@ namespace graupel
       for (const auto &point : space.boundary(outlet.id))
         {
           const double weight = conductivity[point.cell] / space.cell_sizes[point.cell];
+          PressureMatrix::CellMatrix local;
           for (unsigned int a = 0; a < nodes_per_cell; ++a)
             for (unsigned int b = 0; b < nodes_per_cell; ++b)
-              local(a, b) += weight * point.weight * point.value[a] * point.value[b];
-          distribute(point.cell);
+              local[a][b] = weight * point.weight * point.value[a] * point.value[b];
+          schur.add(point.cell, local);
         }
-    schur.compress(dealii::VectorOperation::add);
+    schur.compress();
     of_grad_div.compress(dealii::VectorOperation::add);
     for (unsigned int k = 0; k < of_grad_div.locally_owned_size(); ++k)
       if (const double measure = nodes.measure().local_element(k); measure > 0.)

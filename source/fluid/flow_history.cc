@@ -145,7 +145,7 @@ namespace graupel
     fastest             = recipe->speed;
     assemble_system(medium);
     assemble_schur(medium);
-    preconditioner.refresh(schur, of_grad_div);
+    preconditioner.refresh(schur.trilinos(), of_grad_div);
     built = recipe;
   }
 } // namespace graupel

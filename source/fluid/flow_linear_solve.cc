@@ -132,7 +132,7 @@ namespace graupel
   FlowSolver::refresh_preconditioner(const Medium &medium)
   {
     assemble_schur(medium);
-    preconditioner.refresh(schur, of_grad_div);
+    preconditioner.refresh(schur.trilinos(), of_grad_div);
     built = recipe = share(assembled);
   }
 

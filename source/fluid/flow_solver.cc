@@ -69,6 +69,7 @@ namespace graupel
     , matrix(nodes)
     , scatter(space, boundaries.constraints(), matrix)
     , node_matrix(matrix)
+    , schur(space)
     , preconditioner(node_matrix)
     , minimizer(matrix, node_matrix, preconditioner)
   {
@@ -94,7 +95,6 @@ namespace graupel
     alpha_old.update_ghost_values();
     assembled.carrier = assembled.solids = flux_now;
     assembled.void_fraction = assembled.drag = alpha_old;
-    schur.reinit(nodes.coupling_pattern);
     matrix.initialize(solution);
     rhs.reinit(BlockVector(space.owned, space.relevant, nodes.mesh.communicator()));
   }

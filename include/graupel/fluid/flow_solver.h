@@ -9,6 +9,7 @@
 #include <graupel/fluid/flow_boundaries.h>
 #include <graupel/fluid/flow_history.h>
 #include <graupel/fluid/flow_parameters.h>
+#include <graupel/fluid/pressure_matrix.h>
 #include <graupel/fluid/residual_minimizer.h>
 #include <graupel/fluid/time_scheme.h>
 
@@ -394,7 +395,7 @@ namespace graupel
     FlowMatrix                             matrix;
     CellScatter                            scatter;
     NodeBlockMatrix                        node_matrix; // of matrix
-    dealii::TrilinosWrappers::SparseMatrix schur;
+    PressureMatrix                         schur;
     NodalVector                            of_grad_div; // over the nodes' volumes
     BlockPreconditioner                    preconditioner;
     ResidualMinimizer                      minimizer;
