@@ -72,6 +72,6 @@ computed with scaled particles, and the flow feels the original ones.")
   set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "openmpi-bin")
   # To draw with graupel-render, and to compile against the libraries.
   set(CPACK_DEBIAN_PACKAGE_SUGGESTS
-      "python3-vtk9, xvfb, libdeal.ii-dev, libginac-dev, nlohmann-json3-dev, zlib1g-dev, cmake, g++")
+      "python3-vtk9, xvfb, python3-h5py, libdeal.ii-dev, libginac-dev, nlohmann-json3-dev, zlib1g-dev, cmake, g++")
   include(CPack)
 endif()

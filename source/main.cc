@@ -143,7 +143,7 @@ namespace
     };
     const RunLevel packed_bed = [&](const RunParameters &level,
                                     const std::string   &directory) {
-      ResultFiles own(directory, MPI_COMM_WORLD);
+      ResultFiles own(directory, MPI_COMM_WORLD, level.output.field_format);
       Simulation  simulation(level, file, own, progress, MPI_COMM_WORLD);
       own.begin();
       simulation.run();
@@ -162,7 +162,9 @@ namespace
             const Options                  &options,
             const dealii::ParameterHandler &prm)
   {
-    ResultFiles       files(parameters.output.directory, MPI_COMM_WORLD);
+    ResultFiles       files(parameters.output.directory,
+                      MPI_COMM_WORLD,
+                      parameters.output.field_format);
     Progress          progress = is_first_rank()
                                    ? Progress(std::cout, stdout_is_terminal(), &files.log())
                                    : Progress();

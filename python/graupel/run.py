@@ -19,6 +19,7 @@ from .columns import AVERAGES_COLUMNS, BED_COLUMNS, CASE_FLAGS, CASE_KEYS, MIDPL
 from .columns import MONITOR_COLUMNS, PROFILE_COLUMNS, RADIAL_COLUMNS, SNAPSHOT_COLUMNS
 from .columns import TEXT_COLUMNS
 from .parameters import read_parameters
+from .hdf5 import read_hdf5, xdmf_records
 from .vtu import pvd_records, read_vtu
 
 
@@ -68,9 +69,10 @@ class Run:
     notices: list = field(default_factory=list)
 
     def records(self, stem):
-        """Times [s] and paths of the files for ParaView that STEM.pvd lists, in their order;
-        stem is solution, particles, contacts or averages."""
-        return pvd_records(self.directory / f"{stem}.pvd")
+        """Times [s] and paths of the files for ParaView that STEM.pvd or STEM.xdmf lists, in
+        their order; stem is solution, particles, contacts or averages."""
+        in_hdf5 = self.directory / f"{stem}.xdmf"
+        return xdmf_records(in_hdf5) if in_hdf5.exists() else pvd_records(in_hdf5.with_suffix(".pvd"))
 
     def particles(self, number=-1):
         """The particles at the moment @p number of particles.pvd, by default the last, as a
@@ -89,13 +91,19 @@ class Run:
         """The fields likewise, from solution.pvd: points are the corners of the cells, each
         cell with its own (8 cells, 3) [m]; values void_fraction [-], pressure [Pa],
         drag_coefficient [kg/m^3/s], subdomain, refinement_level (8 cells,) [-], flux and
-        interstitial velocity (8 cells, 3) [m/s]."""
-        return read_vtu(self.records("solution")[number][1])
+        interstitial velocity (8 cells, 3) [m/s]. From solution.xdmf each node once, without
+        subdomain and refinement_level; that needs Debian's python3-h5py."""
+        return self.read_fields("solution", number)
 
     def mean_fields(self, number=-1):
         """The means over the window of Averages likewise, from averages.pvd: void_fraction_mean
         and _rms [-], pressure_mean and _rms [Pa], flux_mean and _rms [m/s]."""
-        return read_vtu(self.records("averages")[number][1])
+        return self.read_fields("averages", number)
+
+    def read_fields(self, stem, number):
+        """What the file of a moment of a series of fields holds, as a VtuFile."""
+        path = self.records(stem)[number][1]
+        return read_hdf5(path) if path.suffix == ".h5" else read_vtu(path)
 
     def get(self, *path):
         """The entry of summary.json at this path of keys; None if absent or null."""

@@ -115,6 +115,42 @@ namespace graupel
     {
       return error.code().message();
     }
+
+    // A step towards the file @p path, of the ranks of which @p is_mine is true. Throws on
+    // all of them, with what the first rank that has failed says, and leaves no part.
+    template <class Action>
+    void
+    attempt(const std::string &path,
+            MPI_Comm           communicator,
+            const bool         is_mine,
+            const Action      &action)
+    {
+      namespace mpi           = dealii::Utilities::MPI;
+      const unsigned int rank = mpi::this_mpi_process(communicator);
+      std::string        failure;
+      try
+        {
+          if (is_mine)
+            action();
+        }
+      catch (const std::system_error &error)
+        {
+          failure = cause(error);
+        }
+      catch (const dealii::ExceptionBase &)
+        {
+          failure = "the library that writes it has failed";
+        }
+      const unsigned int none  = mpi::n_mpi_processes(communicator),
+                         first = mpi::min(failure.empty() ? none : rank, communicator);
+      if (first == none)
+        return;
+      failure = mpi::broadcast(communicator, failure, first);
+      if (rank == 0)
+        remove_part(path);
+      MPI_Barrier(communicator);
+      throw FileError(path, failure);
+    }
   } // namespace
 
   FileError::FileError(const std::string &path, const std::string &cause)
@@ -145,34 +181,27 @@ namespace graupel
              const std::vector<FilePart> &parts,
              MPI_Comm                     communicator)
   {
-    namespace mpi           = dealii::Utilities::MPI;
-    const unsigned int rank = mpi::this_mpi_process(communicator);
-    std::string        failure;
-    const auto         attempt = [&](const bool is_mine, const auto &action) {
-      try
-        {
-          if (is_mine)
-            action();
-        }
-      catch (const std::system_error &error)
-        {
-          failure = cause(error);
-        }
-      // What the first rank that has failed says.
-      const unsigned int none = mpi::n_mpi_processes(communicator),
-                         first = mpi::min(failure.empty() ? none : rank, communicator);
-      if (first == none)
-        return;
-      failure = mpi::broadcast(communicator, failure, first);
-      if (rank == 0)
-        remove_part(path);
-      MPI_Barrier(communicator);
-      throw FileError(path, failure);
-    };
+    const bool is_first = dealii::Utilities::MPI::this_mpi_process(communicator) == 0;
+    attempt(path, communicator, is_first, [&] {
+      write_parts(path, {}, O_CREAT | O_TRUNC);
+    });
+    attempt(path, communicator, true, [&] { write_parts(path, parts, 0); });
+    attempt(path, communicator, is_first, [&] {
+      std::filesystem::rename(unfinished(path), path);
+    });
+  }
 
-    attempt(rank == 0, [&] { write_parts(path, {}, O_CREAT | O_TRUNC); });
-    attempt(true, [&] { write_parts(path, parts, 0); });
-    attempt(rank == 0, [&] { std::filesystem::rename(unfinished(path), path); });
+  void
+  write_file(const std::string                              &path,
+             const std::function<void(const std::string &)> &write,
+             MPI_Comm                                        communicator)
+  {
+    const bool is_first = dealii::Utilities::MPI::this_mpi_process(communicator) == 0;
+    attempt(path, communicator, true, [&] { write(unfinished(path)); });
+    attempt(path, communicator, is_first, [&] {
+      OpenFile(unfinished(path), O_RDONLY).send_to_disk();
+      std::filesystem::rename(unfinished(path), path);
+    });
   }
 
   void

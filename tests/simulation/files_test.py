@@ -46,19 +46,20 @@ def script(name, *arguments):
 class ParaView(unittest.TestCase):
     """The files of a short run on two ranks, on a mesh with two levels."""
 
+    VALUES = {
+        "Output/report": "false",
+        "Flow/superficial velocities": "0.5",
+        "Mesh adaption/initial passes": 1,
+        "Mesh adaption/surface threshold": 0.1,
+        "Mesh adaption/maximum levels": 1,
+    }
+
     @classmethod
     def setUpClass(cls):
         cls.test = RunTest()
         cls.test.setUp()
         cls.addClassCleanup(cls.test.doCleanups)
-        values = {
-            "Output/report": "false",
-            "Flow/superficial velocities": "0.5",
-            "Mesh adaption/initial passes": 1,
-            "Mesh adaption/surface threshold": 0.1,
-            "Mesh adaption/maximum levels": 1,
-        }
-        cls.run_of_two = cls.test.run_file(SHORT, values, ranks=2)
+        cls.run_of_two = cls.test.run_file(SHORT, cls.VALUES, ranks=2)
         assert cls.run_of_two.status == 0, cls.run_of_two
         cls.run_read = graupel.read_run(cls.run_of_two.directory)
 
@@ -117,6 +118,33 @@ class ParaView(unittest.TestCase):
             sizes[of_cells == of_cells.min()].mean() / sizes[of_cells == of_cells.max()].mean(),
             2.0, delta=1e-3,
         )  # fmt: skip
+
+    def test_hdf5_has_the_same_fields_at_each_node_once(self):
+        run = self.test.run_file(SHORT, {**self.VALUES, "Output/field format": "hdf5"}, ranks=2)
+        self.assertEqual(run.status, 0, run)
+        self.assertFalse((run.directory / "solution.pvd").exists())
+        read = graupel.read_run(run.directory)
+        [(time, path)] = read.records("solution")
+        self.assertAlmostEqual(time, self.run_read.records("solution")[0][0], delta=1e-6)
+        self.assertTrue(path.exists())
+        if importlib.util.find_spec("h5py") is None:
+            with self.assertRaisesRegex(ImportError, "apt-get install python3-h5py"):
+                read.fields()
+            return
+        once, corners = read.fields(), self.run_read.fields()
+        self.assertEqual(len(corners.offsets), len(once.offsets))
+        self.assertLess(len(once.points), 0.25 * len(corners.points))
+
+        distance = np.linalg.norm(corners.points[:, None] - once.points[None], axis=2)
+        nearest = distance.argmin(axis=1)
+        # Nodes between two ranks are there twice.
+        self.assertLess(max(distance.min(axis=axis).max() for axis in (0, 1)), 1e-8)
+        for name in ("pressure", "void_fraction", "flux", "velocity", "drag_coefficient"):
+            largest = np.abs(once.values[name]).max()
+            self.assertGreater(largest, 0.0)
+            np.testing.assert_allclose(
+                once.values[name][nearest], corners.values[name], atol=SINGLE * largest
+            )
 
     def test_picture(self):
         target = self.test.path / "bed.png"

@@ -49,6 +49,12 @@ namespace graupel
                   const std::string &part,
                   MPI_Comm           communicator);
 
+  /** The same for a file that a library writes, by all ranks together: @p write is told
+   * its name. */
+  void write_file(const std::string                              &path,
+                  const std::function<void(const std::string &)> &write,
+                  MPI_Comm                                        communicator);
+
   /** Bytes that the disk of the folder of @p path has room for, as the first rank sees it.
    * Collective. */
   std::uint64_t room_on_disk(const std::string &path, MPI_Comm communicator);

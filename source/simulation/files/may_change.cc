@@ -25,6 +25,7 @@ namespace graupel
     // and may for a bed.
     constexpr Rule rules[] = {
       {"Output/probes", true, false, false, "columns of tables that go on"},
+      {"Output/field format", true, false, false, "one series has files of one kind"},
       {"Output/", true, true, true, "what is written does not change what happens"},
       {"Flow solver/", true, true, true, "how equations are solved, not which"},
       {"Boundary conditions/",

@@ -41,6 +41,49 @@ namespace graupel
              (rank + 1 == n ? text.substr(after) : "");
     }
 
+    constexpr const char *xdmf_begin =
+      "<?xml version=\"1.0\" ?>\n<!DOCTYPE Xdmf SYSTEM \"Xdmf.dtd\" []>\n"
+      "<Xdmf Version=\"2.0\">\n  <Domain>\n    <Grid Name=\"CellTime\" "
+      "GridType=\"Collection\" CollectionType=\"Temporal\">\n";
+    constexpr const char *xdmf_end = "    </Grid>\n  </Domain>\n</Xdmf>\n";
+
+    // Numbers of eight bytes: a node's place, and a cell's eight corners in four bytes
+    // each.
+    std::uint64_t
+    expected_bytes(const dealii::DataOutBase::DataOutFilter &filter)
+    {
+      std::uint64_t numbers = 3 * filter.n_nodes() + 4 * filter.n_cells();
+      for (unsigned int set = 0; set < filter.n_data_sets(); ++set)
+        numbers += filter.get_data_set_dim(set) * filter.n_nodes();
+      return 8 * numbers;
+    }
+
+    // Writes what @p output has, each node once, as the file @p path, and returns how XDMF
+    // describes it under the name @p name.
+    std::string
+    write_hdf5(dealii::DataOut<3> &output,
+               const std::string  &path,
+               const std::string  &name,
+               const double        time,
+               MPI_Comm            communicator)
+    {
+      namespace mpi = dealii::Utilities::MPI;
+      dealii::DataOutBase::DataOutFilter filter(
+        dealii::DataOutBase::DataOutFilterFlags(true, true));
+      output.write_filtered_data(filter);
+      require_room(path, expected_bytes(filter), communicator);
+      write_file(
+        path,
+        [&](const std::string &file) {
+          output.write_hdf5_parallel(filter, file, communicator);
+        },
+        communicator);
+      return mpi::broadcast(communicator,
+                            output.create_xdmf_entry(filter, name, time, communicator)
+                              .get_xdmf_content(3),
+                            0);
+    }
+
     // Three nodal vectors as one vector of the unknowns of @p vector_nodes.
     NodalVector
     as_vector(const NodalSpace            &nodes,
@@ -157,6 +200,29 @@ namespace graupel
   }
 
   void
+  ResultFiles::add_field_record(const double        time,
+                                const std::string  &stem,
+                                dealii::DataOut<3> &output,
+                                Records            &records)
+  {
+    if (!in_hdf5)
+      {
+        add_record(time, stem, output, records);
+        return;
+      }
+    const std::string name =
+      "h5/" + stem + '_' +
+      dealii::Utilities::int_to_string(records.size(), counter_digits) + ".h5";
+    records.emplace_back(time, write_hdf5(output, path(name), name, time, communicator));
+    write(stem + ".xdmf", [&](std::ostream &file) {
+      file << xdmf_begin;
+      for (const auto &record : records)
+        file << record.second;
+      file << xdmf_end;
+    });
+  }
+
+  void
   ResultFiles::add_fields(const double time, const CoupledFlow &fluid)
   {
     add_fields(time, fluid.nodes(), fluid.exchange().medium(), fluid.fluid());
@@ -182,11 +248,15 @@ namespace graupel
     add_vector(output, space, velocity, "velocity");
 
     const CellNumbers cells(nodes.dof_handler.get_triangulation());
-    output.add_data_vector(cells.subdomain, "subdomain");
-    output.add_data_vector(cells.level, "refinement_level");
+    // A file that has each node once has no place for what jumps from cell to cell.
+    if (!in_hdf5)
+      {
+        output.add_data_vector(cells.subdomain, "subdomain");
+        output.add_data_vector(cells.level, "refinement_level");
+      }
     compress_fast(output);
     output.build_patches(nodes.mesh.mapping());
-    add_record(time, "solution", output, records.fields);
+    add_field_record(time, "solution", output, records.fields);
   }
 
   void
@@ -218,7 +288,7 @@ namespace graupel
     add_vector(output, space, flux_rms, "flux_rms");
     compress_fast(output);
     output.build_patches(nodes.mesh.mapping());
-    add_record(time, "averages", output, records.averages);
+    add_field_record(time, "averages", output, records.averages);
   }
 
   void

@@ -24,9 +24,10 @@ namespace graupel
       "(profiles|radial|midplane|averages|spectra)-[0-9]+\\.csv|"
       "averages-(lines|planes|midplane)-[0-9]+\\.csv|"
       "bed-(axial|radial|janssen|coordination|contacts)\\.csv|"
-      "(solution|averages|particles|contacts)\\.pvd|report\\.html|bed\\.bin)(\\.part)?");
+      "(solution|averages|particles|contacts)\\.pvd|(solution|averages)\\.xdmf|report\\.html|bed\\.bin)(\\.part)?");
     const std::regex own_vtu(
       "(solution|averages|particles|contacts)_[0-9.]+\\.p?vtu(\\.part)?");
+    const std::regex own_h5("(solution|averages)_[0-9]+\\.h5(\\.part)?");
     const std::regex own_figures(
       "(pressure-profile|pressure-drop|deviation|bottom-force|bed-height|void-fraction|"
       "flux|bubbles|spectra|averages-lines|averages-planes|averages-midplane|radial|bed-"
@@ -49,11 +50,12 @@ namespace graupel
     }
 
     void
-    prepare_directory(const fs::path &directory)
+    prepare_directory(const fs::path &directory, const bool in_hdf5)
     {
       fs::create_directories(directory);
       remove_own(directory, own_files);
       remove_own(directory / "vtu", own_vtu);
+      remove_own(directory / "h5", own_h5);
       remove_own(directory / "figures", own_figures);
       for (const char *folder : {"checkpoint", "checkpoint.new", "checkpoint.old"})
         {
@@ -62,6 +64,8 @@ namespace graupel
             fs::remove(directory / folder);
         }
       fs::create_directory(directory / "vtu");
+      if (in_hdf5)
+        fs::create_directory(directory / "h5");
       std::ofstream trial(directory / "log.txt");
       if (!trial)
         throw std::runtime_error("no file can be made there");
@@ -76,10 +80,13 @@ namespace graupel
     }
   } // namespace
 
-  ResultFiles::ResultFiles(const std::string &directory, MPI_Comm communicator)
+  ResultFiles::ResultFiles(const std::string &directory,
+                           MPI_Comm           communicator,
+                           const std::string &field_format)
     : directory(directory)
     , communicator(communicator)
     , is_writer(dealii::Utilities::MPI::this_mpi_process(communicator) == 0)
+    , in_hdf5(field_format == "hdf5")
     , monitors(path("monitors.csv"))
     , probes(path("probes.csv"))
     , wall_forces(path("wall-forces.csv"))
@@ -94,7 +101,7 @@ namespace graupel
     if (is_writer)
       try
         {
-          prepare_directory(directory);
+          prepare_directory(directory, in_hdf5);
         }
       catch (const std::exception &error)
         {

@@ -191,6 +191,14 @@ namespace graupel
       interval,
       "Simulated time between two sets of ParaView files, beside those at the "
       "end of every phase and flow case; 0 for no more than these [s].");
+    prm.add_parameter(
+      "field format",
+      field_format,
+      "Files of the fields of the fluid and of their means: vtu has each cell with corners "
+      "of its own; hdf5, for large runs, has each node once, in HDF5 files that "
+      "solution.xdmf and averages.xdmf describe, without subdomain and refinement "
+      "level.",
+      dealii::Patterns::Selection("vtu|hdf5"));
     prm.add_parameter("mid-plane points",
                       midplane_points,
                       "Points across the vessel at which the mid-plane is sampled [-].");

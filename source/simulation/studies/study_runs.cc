@@ -95,7 +95,7 @@ namespace graupel
                      Progress            &progress,
                      MPI_Comm             communicator)
   {
-    ResultFiles files(directory, communicator);
+    ResultFiles files(directory, communicator, parameters.output.field_format);
     files.begin();
     CostSheet                  costs;
     const VesselMesh           mesh(parameters.cylinder, parameters.mesh, communicator);

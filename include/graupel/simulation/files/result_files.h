@@ -13,6 +13,12 @@
 
 #include <fstream>
 
+namespace dealii
+{
+  template <int dim, int spacedim>
+  class DataOut;
+}
+
 namespace graupel
 {
   /**
@@ -24,8 +30,10 @@ namespace graupel
   class ResultFiles
   {
   public:
-    /** Touches nothing yet. */
-    ResultFiles(const std::string &directory, MPI_Comm communicator);
+    /** Touches nothing yet. @p field_format as in OutputParameters. */
+    ResultFiles(const std::string &directory,
+                MPI_Comm           communicator,
+                const std::string &field_format = "vtu");
 
     /**
      * Makes the directory, or takes what earlier runs have written out of it, their own
@@ -37,6 +45,8 @@ namespace graupel
     /** The same where an earlier run goes on: only parameters.prm is written anew. */
     void go_on(const dealii::ParameterHandler &prm);
 
+    /** Times [s], and what a series says of each: the name of a file, or the grid in
+     * HDF5 files as XDMF has it. */
     using Records = std::vector<std::pair<double, std::string>>;
 
     /** The times and files of the ParaView series so far. */
@@ -112,7 +122,7 @@ namespace graupel
      */
     void write_bed(const BedProfiles &bed);
 
-    /** Adds the fields at @p time [s] to solution.pvd. Collective. */
+    /** Adds the fields at @p time [s] to solution.pvd or solution.xdmf. Collective. */
     void add_fields(const double time, const CoupledFlow &fluid);
 
     /** The same of a flow without particles. Collective. */
@@ -121,7 +131,8 @@ namespace graupel
                     const Medium     &medium,
                     const FlowSolver &flow);
 
-    /** Adds the means over time up to @p time [s] to averages.pvd. Collective. */
+    /** Adds the means over time up to @p time [s] to averages.pvd or averages.xdmf.
+     * Collective. */
     void add_averages(const double         time,
                       const NodalSpace    &nodes,
                       const FieldAverages &averages);
@@ -147,12 +158,16 @@ namespace graupel
                     const std::string &stem,
                     const Output      &output,
                     Records           &records);
+    void add_field_record(const double        time,
+                          const std::string  &stem,
+                          dealii::DataOut<3, 3> &output,
+                          Records            &records);
     void write_table(const std::string &name, const std::string &text) const;
     void write_parameters(const dealii::ParameterHandler &prm);
 
     const std::string directory;
     const MPI_Comm    communicator;
-    const bool        is_writer;
+    const bool        is_writer, in_hdf5;
     std::ofstream     log_stream;
     GrowingTable      monitors, probes, wall_forces, snapshots;
     Written           records;

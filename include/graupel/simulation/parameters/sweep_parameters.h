@@ -77,6 +77,8 @@ namespace graupel
     /** Time between two sets of ParaView files beside those at the ends of phases and
      * cases; 0: none [s]. */
     double interval = 0.;
+    /** Of the fields: "vtu", or "hdf5" for HDF5 files that XDMF describes. */
+    std::string field_format = "vtu";
     /** Points across the vessel of the mid-plane file [-]. */
     unsigned int midplane_points = 51;
     /** Annuli of the radial file [-]. */
