@@ -31,8 +31,9 @@ namespace graupel
       "Length of the filter that spreads a particle's volume and drag over the "
       "mesh, and gathers fluid fields at the particle: a Gaussian of standard "
       "deviation 1.41 times this length. auto makes the standard deviation one "
-      "diameter of a simulated particle, 0 is a plain deposit on the nearest "
-      "nodes [m].");
+      "diameter of a simulated particle, and two where a gas in transient mode is faster "
+      "than the onset of fluidisation, as bubbles depend on the mesh with less; 0 is a "
+      "plain deposit on the nearest nodes [m].");
     prm.add_parameter(
       "bed surface",
       bed_surface,
@@ -61,13 +62,15 @@ namespace graupel
   }
 
   double
-  CouplingParameters::length(const double simulated_diameter) const
+  CouplingParameters::length(const double simulated_diameter, const bool bubbles) const
   {
     // A standard deviation of one diameter: with less, the solid fraction at a particle
     // is no longer that of its surroundings; with more, the bed's surface is
-    // smeared further (doc/design.md).
+    // smeared further. Of two where bubbles move: with less, particles push on their own
+    // disturbance, the more the finer the mesh (doc/design.md).
+    const double deviation = (bubbles ? 2. : 1.) * simulated_diameter;
     return number_or_word("Coupling/filter length", filter_length, {"auto"})
-      .value_or(simulated_diameter / std::sqrt(2.));
+      .value_or(deviation / std::sqrt(2.));
   }
 
   double
@@ -82,7 +85,7 @@ namespace graupel
   void
   CouplingParameters::check() const
   {
-    const double value = length(1.);
+    const double value = length(1., false);
     require(value >= 0. && std::isfinite(value),
             "Coupling/filter length",
             "a filter cannot have a negative length; 0 switches it off, auto makes "

@@ -35,7 +35,33 @@ namespace
       }
     return "accepted";
   }
+
+  // Of the bubbling bed with changes, in diameters of its spheres.
+  double
+  filter_deviation(const std::vector<std::string> &assignments)
+  {
+    RunParameters            parameters;
+    dealii::ParameterHandler prm;
+    parameters.declare(prm);
+    ParameterFile file(prm);
+    file.read(GRAUPEL_SOURCE_DIR "/prm/fluidised-bed/bubbling.prm");
+    for (const std::string &assignment : assignments)
+      file.set(assignment);
+    return std::sqrt(2.) * parameters.filter_length() / 1.2e-3;
+  }
 } // namespace
+
+// Ergun's onset is at 0.358 m/s there.
+TEST(Parameters, AutoMakesTheFilterTwoDiametersWideWhereBubblesOfAGasMove)
+{
+  EXPECT_NEAR(filter_deviation({}), 2., 1e-12);
+  EXPECT_NEAR(filter_deviation({"Flow/superficial velocities=0.2, 0.4"}), 2., 1e-12);
+  EXPECT_NEAR(filter_deviation({"Flow/superficial velocities=0.2, 0.25"}), 1., 1e-12);
+  EXPECT_NEAR(filter_deviation({"Flow/mode=steady"}), 1., 1e-12);
+  EXPECT_NEAR(filter_deviation({"Flow/mode=automatic"}), 1., 1e-12);
+  EXPECT_NEAR(filter_deviation({"Fluid/density=900"}), 1., 1e-12);
+  EXPECT_NEAR(filter_deviation({"Coupling/filter length=1.2e-3"}), std::sqrt(2.), 1e-12);
+}
 
 TEST(Parameters, EveryNumberHasAUnit)
 {

@@ -36,8 +36,8 @@ namespace graupel
     void declare(dealii::ParameterHandler &prm);
     void check() const;
 
-    /** The filter length in use [m]. */
-    double length(const double simulated_diameter) const;
+    /** The filter length in use [m], in a gas whose bubbles are to be followed or not. */
+    double length(const double simulated_diameter, const bool bubbles) const;
 
     /** LawVoidFraction::upstream in use, in a fluid of @p density_ratio times the density
      * of the particles [-]. */

@@ -11,6 +11,7 @@
 #include <graupel/simulation/parameters/run_size.h>
 #include <graupel/simulation/parameters/step_limits.h>
 
+#include <algorithm>
 #include <iomanip>
 #include <sstream>
 
@@ -195,10 +196,25 @@ namespace graupel
     return dem.mean_simulated_diameter();
   }
 
+  bool
+  RunParameters::has_bubbles() const
+  {
+    const std::vector<double> &velocities = sweep.superficial_velocities;
+    if (!sweep.has_fluid() || sweep.mode != "transient" || velocities.empty() ||
+        coupling.upstream(fluid.density / dem.particles.density) > 0.)
+      return false;
+    return *std::max_element(velocities.begin(), velocities.end()) >
+           ergun_onset_velocity(fluid,
+                                dem.mean_original_diameter(),
+                                guessed_void_fraction,
+                                dem.particles.density,
+                                dem.particles.gravity);
+  }
+
   double
   RunParameters::filter_length() const
   {
-    return coupling.length(simulated_diameter());
+    return coupling.length(simulated_diameter(), has_bubbles());
   }
 
   std::vector<DragOfType>

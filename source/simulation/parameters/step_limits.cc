@@ -12,9 +12,9 @@ namespace graupel
   namespace
   {
     // A filter's standard deviation below which a particle pushes on its own
-    // disturbance, in diameters, and one beyond which it blurs the vessel, in diameters
-    // of that [-].
-    constexpr double least_filter = 0.99, largest_filter = 0.25;
+    // disturbance, in diameters, the same where bubbles move, and one beyond which it
+    // blurs the vessel, in diameters of that [-].
+    constexpr double least_filter = 0.99, least_of_bubbles = 1.99, largest_filter = 0.25;
     // Simulated particles across a vessel, below which walls are all that there is [-].
     constexpr double fewest_across = 5.;
     // Cells in simulated diameters, beyond which a bed's ends are smeared over them: 500
@@ -68,8 +68,12 @@ namespace graupel
              << " m): it feels its own disturbance of the flow. Try auto";
       else if (deviation > largest_filter * vessel)
         text << "more than a quarter of the vessel (" << vessel
-             << " m): the bed is smeared over all of it. Try auto, or a smaller "
+             << " m): the bed is smeared over all of it. Try less, or a smaller "
                 "Particles/scale";
+      else if (parameters.has_bubbles() && deviation < least_of_bubbles * diameter)
+        text << "less than two simulated particles (of " << diameter
+             << " m): where bubbles move, the finer the mesh the more these feel their "
+                "own disturbance of the flow. Try auto";
       else
         return;
       said.push_back(text.str());
