@@ -32,8 +32,9 @@ namespace graupel
       "mesh, and gathers fluid fields at the particle: a Gaussian of standard "
       "deviation 1.41 times this length. auto makes the standard deviation one "
       "diameter of a simulated particle, and two where a gas in transient mode is faster "
-      "than the onset of fluidisation, as bubbles depend on the mesh with less; 0 is a "
-      "plain deposit on the nearest nodes [m].");
+      "than the onset of fluidisation, in a vessel of eight diameters at least, as "
+      "bubbles depend on the mesh with less; 0 is a plain deposit on the nearest nodes "
+      "[m].");
     prm.add_parameter(
       "bed surface",
       bed_surface,

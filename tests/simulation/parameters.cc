@@ -60,6 +60,8 @@ TEST(Parameters, AutoMakesTheFilterTwoDiametersWideWhereBubblesOfAGasMove)
   EXPECT_NEAR(filter_deviation({"Flow/mode=steady"}), 1., 1e-12);
   EXPECT_NEAR(filter_deviation({"Flow/mode=automatic"}), 1., 1e-12);
   EXPECT_NEAR(filter_deviation({"Fluid/density=900"}), 1., 1e-12);
+  // Slugs: two would be more than a quarter of the vessel.
+  EXPECT_NEAR(filter_deviation({"Geometry/diameter=9.5e-3"}), 1., 1e-12);
   EXPECT_NEAR(filter_deviation({"Coupling/filter length=1.2e-3"}), std::sqrt(2.), 1e-12);
 }
 

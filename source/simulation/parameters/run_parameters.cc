@@ -19,6 +19,10 @@ namespace graupel
 {
   namespace
   {
+    // Diameters across a vessel below which gas makes slugs, and a filter of two diameters
+    // would be more than a quarter of it [-].
+    constexpr double narrowest_of_bubbles = 8.;
+
     // Of a particle, far beyond any that drag laws are made for [-].
     constexpr double most_reynolds = 1e9;
   } // namespace
@@ -201,6 +205,7 @@ namespace graupel
   {
     const std::vector<double> &velocities = sweep.superficial_velocities;
     if (!sweep.has_fluid() || sweep.mode != "transient" || velocities.empty() ||
+        cylinder.diameter < narrowest_of_bubbles * simulated_diameter() ||
         coupling.upstream(fluid.density / dem.particles.density) > 0.)
       return false;
     return *std::max_element(velocities.begin(), velocities.end()) >

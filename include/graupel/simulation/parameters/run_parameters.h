@@ -53,7 +53,8 @@ namespace graupel
     /** The scale of all types; none if they have several [-]. */
     std::optional<double> common_scale() const;
     /** Whether bubbles of a gas are to be followed: in transient mode, faster than a bed
-     * of the guessed void fraction is lifted by Ergun's equation. */
+     * of the guessed void fraction is lifted by Ergun's equation, in a vessel of eight
+     * diameters at least. */
     bool has_bubbles() const;
     /** Filter length in use [m]. */
     double filter_length() const;
