@@ -21,6 +21,17 @@ namespace graupel
   {
     constexpr unsigned int counter_digits = 4;
 
+    // The next file of a series, in the folder that is called as its ending is.
+    std::string
+    next_file(const std::string          &ending,
+              const std::string          &stem,
+              const ResultFiles::Records &records)
+    {
+      return ending + '/' + stem + '_' +
+             dealii::Utilities::int_to_string(records.size(), counter_digits) + '.' +
+             ending;
+    }
+
     // This rank's part of the file that all ranks make of what they have to show.
     template <class Output>
     std::string
@@ -189,9 +200,7 @@ namespace graupel
                           const Output      &output,
                           Records           &records)
   {
-    const std::string name =
-      "vtu/" + stem + '_' +
-      dealii::Utilities::int_to_string(records.size(), counter_digits) + ".vtu";
+    const std::string name = next_file("vtu", stem, records);
     write_file(path(name), part_of_file(output, communicator), communicator);
     records.emplace_back(time, name);
     write(stem + ".pvd", [&](std::ostream &file) {
@@ -210,9 +219,7 @@ namespace graupel
         add_record(time, stem, output, records);
         return;
       }
-    const std::string name =
-      "h5/" + stem + '_' +
-      dealii::Utilities::int_to_string(records.size(), counter_digits) + ".h5";
+    const std::string name = next_file("h5", stem, records);
     records.emplace_back(time, write_hdf5(output, path(name), name, time, communicator));
     write(stem + ".xdmf", [&](std::ostream &file) {
       file << xdmf_begin;
