@@ -19,9 +19,8 @@ PATIENCE, MORE = 5.0, 120.0
 BUILD = 7200.0
 # What a process may take of memory and write to a file, as a mutant may do so without end [bytes].
 MEMORY, FILE = 8 * 2**30, 2 * 2**30
-# The first case that fails ends a test; and ccache, which knows the file without the mutant, must
-# not refuse what is compiled with a header compiled before.
-ENVIRONMENT = {"GTEST_FAIL_FAST": "1", "CCACHE_SLOPPINESS": "pch_defines,time_macros"}
+# The first case that fails ends a test.
+ENVIRONMENT = {"GTEST_FAIL_FAST": "1"}
 
 
 def end_all(mark):

@@ -7,9 +7,11 @@ measured, and case.py with
 
     TITLE, SOURCE         what it is, and where the expected values are from
     runs(quick)           the list of its Runs; shortened ones if quick
-    evaluate(results)     the list of its Comparisons, from the runs (common.runs.Runs), each
-                          with the name of its run
+    evaluate(results)     the list of its Comparisons, from the runs (kept.RunsWithKept),
+                          each with the name of its run
     figure(results)       its picture
+    KEPT                  files of a run that the page keeps; a case that has them evaluates and
+                          draws the runs of which they are there, and may leave KEPT out
 
 A case whose runs are not all there is evaluated from those that are; what the page has of
 the others stays.

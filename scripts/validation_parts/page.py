@@ -32,7 +32,7 @@ COMMAND = "scripts/validate"
 
 
 def as_row(one, cpu_seconds):
-    """A comparison as a row of NAME.csv."""
+    """A comparison as a row of NAME.csv; @p cpu_seconds are texts by the name of the run."""
     return {
         "quantity": one.quantity,
         "unit": one.unit,
@@ -45,7 +45,7 @@ def as_row(one, cpu_seconds):
         "met": "" if one.is_met is None else str(one.is_met),
         "decimals": str(one.decimals),
         "run": one.run,
-        "cpu_seconds": f"{cpu_seconds[one.run]:.0f}",
+        "cpu_seconds": cpu_seconds[one.run],
     }
 
 
@@ -64,8 +64,10 @@ def write_case(name, comparisons, cpu_seconds, figure, folder):
     file = folder / f"{name}.csv"
     order = [run.name for run in load(name).runs(False)]
     before = read_case(file) if file.exists() else []
-    rows = merged(before, [as_row(one, cpu_seconds) for one in comparisons], order)
-    drawn = [run for run in order if run in cpu_seconds]
+    cost = {row["run"]: row["cpu_seconds"] for row in before}
+    cost.update((run, f"{seconds:.0f}") for run, seconds in cpu_seconds.items())
+    rows = merged(before, [as_row(one, cost) for one in comparisons], order)
+    drawn = [run for run in order if any(one.run == run for one in comparisons)]
     with open(file, "w", newline="", encoding="utf-8") as stream:
         stream.write(f"# {COMMAND} {name}; the figure shows the runs\n# {', '.join(drawn)}\n")
         writer = csv.DictWriter(stream, COLUMNS)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The Graupel authors
 
+#include <graupel/base/block_sums.h>
 #include <graupel/base/time_series.h>
 
 #include <kissfft/kissfft.hh>
@@ -14,8 +15,6 @@ namespace graupel
   {
     constexpr double pi = 3.14159265358979323846;
 
-    // An error from fewer blocks is too uncertain.
-    constexpr std::size_t fewest_blocks = 8;
     // Parts of the time that a segment of the spectrum has.
     constexpr unsigned int segments      = 4;
     constexpr std::size_t  fewest_values = 64;
@@ -29,26 +28,6 @@ namespace graupel
       for (const double value : values)
         sum += value;
       return sum / values.size();
-    }
-
-    // Standard error if the values are independent.
-    double
-    naive_error(const std::vector<double> &values)
-    {
-      const double mean = mean_of(values);
-      double       sum  = 0.;
-      for (const double value : values)
-        sum += (value - mean) * (value - mean);
-      return std::sqrt(sum / values.size() / (values.size() - 1.));
-    }
-
-    std::vector<double>
-    join_neighbours(const std::vector<double> &values)
-    {
-      std::vector<double> blocks;
-      for (std::size_t k = 0; k + 1 < values.size(); k += 2)
-        blocks.push_back(0.5 * (values[k] + values[k + 1]));
-      return blocks;
     }
 
     bool
@@ -83,19 +62,12 @@ namespace graupel
   }
 
   std::optional<double>
-  error_of_mean(std::vector<double> values)
+  error_of_mean(const std::vector<double> &values)
   {
-    std::vector<double> errors, lowest; // less their own uncertainty
-    for (; values.size() >= fewest_blocks; values = join_neighbours(values))
-      {
-        errors.push_back(naive_error(values));
-        lowest.push_back(errors.back() *
-                         (1. - 1. / std::sqrt(2. * (values.size() - 1.))));
-      }
-    for (std::size_t k = 0; k + 1 < errors.size(); ++k)
-      if (*std::max_element(lowest.begin() + k + 1, lowest.end()) <= errors[k])
-        return errors[k];
-    return {};
+    BlockSums blocks;
+    for (const double value : values)
+      blocks.add(value, 1.);
+    return blocks.error_of_mean();
   }
 
   Spectrum

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The Graupel authors
 
+#include <graupel/base/block_sums.h>
 #include <graupel/base/moments.h>
 #include <graupel/base/time_series.h>
 
@@ -90,6 +91,30 @@ TEST(ErrorOfMean, HasNoValueWhereAllHangsTogether)
   EXPECT_FALSE(error_of_mean(drift));
   EXPECT_FALSE(error_of_mean({1., 2., 3.}));
   EXPECT_EQ(*error_of_mean(std::vector<double>(16, 3.)), 0.);
+}
+
+// Law: the mean of sums of v over a number w of particles, whose velocities scatter with
+// the deviation 1 about 1000, has the variance sum w / (sum w)^2. Limit: as above.
+TEST(BlockSums, OfUnequalWeights)
+{
+  constexpr unsigned int n = 1u << 15;
+  const auto             v = chain(0., n);
+  BlockSums              blocks;
+  double                 particles = 0.;
+  for (unsigned int k = 0; k < n; ++k)
+    {
+      const double w = k % 3; // none at every third look
+      blocks.add(w * 1000. + std::sqrt(w) * v[k], w);
+      particles += w;
+    }
+  const double right = 1. / std::sqrt(particles);
+  ASSERT_TRUE(blocks.error_of_mean());
+  EXPECT_NEAR(*blocks.error_of_mean(), right, 3. / std::sqrt(2. * n / 100.) * right);
+  // Means do not scatter that are the same at each look, however many there are.
+  BlockSums same;
+  for (unsigned int k = 0; k < 64; ++k)
+    same.add(0.3 * (k % 5), k % 5);
+  EXPECT_NEAR(*same.error_of_mean(), 0., 1e-15);
 }
 
 // Laws: the integral over a spectrum is the variance, a^2/2 of a sine; white noise has

@@ -127,6 +127,9 @@ class Averages(RunTest):
         self.assert_close(bin["velocity_z"], mean, 1e-9, "mean velocity")
         self.assert_close(bin["velocity_rms_z"], rms, 1e-6, "rms of the velocity")
         self.assert_close(bin["velocity_x"], 0.5e-3, 1e-6, "velocity across")
+        # The speed drifts: no mean, no error of it; across nothing changes.
+        self.assertIsNone(bin["velocity_error_z"])
+        self.assert_within(bin["velocity_error_x"], 0.0, 1e-12, "error of the velocity across")
         # Two velocities 1 mm/s apart: half of the square is their variance.
         self.assert_close(bin["granular_temperature"], 0.5e-6 / 3, 1e-4, "temperature")
         volume = 2 * math.pi / 6 * 2e-3**3

@@ -20,6 +20,7 @@ from graupel.run import Run
 from common.statistics import crossings_with_error, mean_with_error, rms_with_error
 from validation_parts import page
 from validation_parts.case import Comparison, load, names
+from validation_parts.kept import RunsWithKept
 
 VALIDATE = ROOT / "scripts" / "validate"
 PARTS = ("TITLE", "SOURCE", "runs", "evaluate", "figure")
@@ -116,13 +117,38 @@ class Evaluations(RunTest):
         at, value = mueller.points(0.6, 0.0164, "void_fraction")
         self.assertEqual(len(at), 22, "points seen by magnetic resonance, without simulations")
         expected = math.sqrt(np.mean((0.6 - at / 0.44 - value) ** 2))
-        with open(self.path / "averages-lines-01.csv", "w", encoding="utf-8") as file:
-            file.write("name,x,solid_fraction,velocity_z\nelsewhere,0.0,0.9,\n")
-            for x in np.linspace(0.0, 0.044, 12):
-                file.write(f"void-16,{x - 0.022},{0.4 + x / 0.44},\n")
-        run = Run(self.path)
-        off = mueller.difference(run, 0.6, "void-16", 0.0164, "void_fraction")
+        profiles = self.profiles("output", "0.6-coarse", 0.4)
+        off = mueller.difference(profiles, 0.6, "void-16", 0.0164, "void_fraction")
         self.assertAlmostEqual(off, expected, places=9)
+
+    def profiles(self, folder, run, at_wall):
+        """The file of a run with a line for each of those that are compared."""
+        file = self.path / folder / run / "averages-lines-01.csv"
+        file.parent.mkdir(parents=True)
+        rows = ["name,x,solid_fraction,solid_fraction_error,velocity_z,velocity_error_z"]
+        rows += ["elsewhere,0.0,0.9,,,"]
+        for name, *_ in load("mueller").LINES:
+            rows += [
+                f"{name},{x - 0.022},{at_wall + x / 0.44},0.003,{x},0.004"
+                for x in np.linspace(0.0, 0.044, 12)
+            ]
+        file.write_text("\n".join(rows) + "\n", encoding="utf-8")
+        (file.parent / "summary.json").write_text("{}", encoding="utf-8")
+        return file
+
+    def test_runs_that_the_page_keeps_are_compared_with_those_that_are_there(self):
+        mueller = load("mueller")
+        self.profiles("page/kept", "0.6-coarse", 0.4)
+        self.profiles("output", "0.6-fine", 0.41)
+        results = RunsWithKept(self.path / "output", "", self.path / "page" / "kept")
+        results.keep(["0.6-coarse", "0.6-fine"], mueller.KEPT)
+        rows = {one.quantity: one for one in mueller.evaluate(results)}
+        one = rows["void-16, 0.6 m/s, fine against coarse"]
+        self.assertAlmostEqual(one.ours, 0.01, places=12)
+        self.assertAlmostEqual(one.limit, 3.0 * math.hypot(0.003, 0.003), places=12)
+        self.assertTrue(one.is_met)
+        self.assertIn("rms difference, void-16, 0.6 m/s, coarse mesh", rows)
+        self.assertNotIn("rms difference, void-16, 0.9 m/s, coarse mesh", rows)
 
     def test_van_wachem_finds_the_frequency_of_a_sine(self):
         time = np.linspace(0.0, 8.0, 4096)

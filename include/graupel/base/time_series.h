@@ -18,18 +18,9 @@ namespace graupel
                                     const std::vector<double> &values,
                                     const unsigned int         n);
 
-  /**
-   * Standard error of the mean of evenly spaced @p values that hang together over some
-   * time. Neighbours are joined to blocks of 2, 4, 8, ..., whose means scatter the less
-   * by chance the longer they are; what the error comes to once blocks are independent is
-   * the answer: the first estimate that no later one exceeds by more than its own
-   * uncertainty. Nothing where there is none, as the values hang together over too much
-   * of the time, and for fewer than 16 values.
-   *
-   * Source: Flyvbjerg & Petersen, Error estimates on averages of correlated data (1989),
-   * doi:10.1063/1.457480.
-   */
-  std::optional<double> error_of_mean(std::vector<double> values);
+  /** Standard error of the mean of evenly spaced @p values that hang together over some
+   * time: BlockSums::error_of_mean(). */
+  std::optional<double> error_of_mean(const std::vector<double> &values);
 
   /** Power of a quantity by frequency. */
   struct Spectrum

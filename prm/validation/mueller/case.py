@@ -6,16 +6,15 @@ import csv
 
 import numpy as np
 
-from graupel.report.style import BLUE, GREEN, GREY, VERMILLION, new_figure
+from graupel.report.style import BLUE, GREEN, GREY, PURPLE, VERMILLION, new_figure
 from validation_parts.case import FOLDER, Comparison, Run, measured
 
 TITLE = "Bubbling bed of 44 mm x 10 mm at 0.6 and 0.9 m/s: void fraction and particle velocity"
 SOURCE = (
     "magnetic resonance, Mueller et al., Powder Technology 184 (2008) 241 and Particuology 7"
     " (2009) 297, digitised by others (prm/validation/mueller); the limits are on the rms of the"
-    " difference over the points of a line. The error of a profile is what its two halves, which"
-    " should be the same, show of it; meshes and steps agree where they differ by no more than"
-    " three errors of both"
+    " difference over the points of a line. The error of a profile is the rms of those of its bins, by"
+    " blocks of time; meshes and steps agree where they differ by no more than three errors of both"
 )
 
 VELOCITIES = (0.6, 0.9)
@@ -33,14 +32,22 @@ LINES = (
 # The example of the bubbling bed, over the time that was averaged in the measurement.
 EXAMPLE = "../../fluidised-bed/bubbling.prm"
 WINDOW = {"Flow/duration": 10, "Averages/from": 2, "Averages/to": 10}
-# Cells of 2.75 mm x 2.5 mm x 3 mm, those of 1.83 mm x 2.5 mm x 2 mm, and half the step.
+# Cells of 2.75 mm x 2.5 mm x 3 mm, of 1.83 mm x 2.5 mm x 2 mm and of 1.375 mm x 2.5 mm x 1.5 mm,
+# and half the step on the first.
 MESHES = {
     "coarse": {},
     "fine": {"Mesh/file": str(FOLDER / "mueller" / "box-fine.msh"), "Mesh/cell size": 1.9e-3},
+    "finer": {"Mesh/file": str(FOLDER / "mueller" / "box-finer.msh"), "Mesh/cell size": 1.4e-3},
     "half-step": {"Flow/time step": 5e-4},
 }
+# Which of them are compared with each other.
+PAIRS = (("fine", "coarse"), ("finer", "fine"), ("half-step", "coarse"))
+PROFILES = "averages-lines-01.csv"
+KEPT = (PROFILES,)
+COLOURS = dict(zip(MESHES, (BLUE, GREEN, VERMILLION, PURPLE)))
 LIMIT_OF_ERRORS = 3.0
 UNITS = {"void_fraction": "-", "particle_velocity_z": "m/s"}
+ERRORS = {"void_fraction": "solid_fraction_error", "particle_velocity_z": "velocity_error_z"}
 
 
 def name_of(velocity, mesh):
@@ -49,7 +56,7 @@ def name_of(velocity, mesh):
 
 
 def runs(quick):
-    """Both velocities on all meshes, an hour each; a moment if quick."""
+    """Both velocities on all meshes, half an hour to two hours each; a moment if quick."""
     if quick:
         moment = {"Flow/duration": 0.05, "Averages/from": 0.01, "Averages/to": 0.05}
         return [Run(name_of(0.6, "coarse"), EXAMPLE, moment)]
@@ -60,16 +67,22 @@ def runs(quick):
     ]
 
 
-def bins(run, line):
+def columns(profiles, line):
+    """The columns of a line in the file of a run, numbers."""
+    with open(profiles, newline="", encoding="utf-8") as file:
+        rows = [row for row in csv.DictReader(file) if row.pop("name") == line]
+    return {
+        key: np.array([float(row[key]) if row[key] else np.nan for row in rows]) for key in rows[0]
+    }
+
+
+def bins(profiles, line):
     """Distance from the side wall [m], void fraction by particle volumes, and velocity [m/s]."""
-    with open(run.directory / "averages-lines-01.csv", newline="", encoding="utf-8") as file:
-        rows = [row for row in csv.DictReader(file) if row["name"] == line]
-
-    def column(key):
-        return np.array([float(row[key]) if row[key] else np.nan for row in rows])
-
-    void, velocity = 1.0 - column("solid_fraction"), column("velocity_z")
-    return column("x") + WIDTH / 2.0, {"void_fraction": void, "particle_velocity_z": velocity}
+    of_line = columns(profiles, line)
+    return of_line["x"] + WIDTH / 2.0, {
+        "void_fraction": 1.0 - of_line["solid_fraction"],
+        "particle_velocity_z": of_line["velocity_z"],
+    }
 
 
 def points(velocity, height, quantity):
@@ -88,65 +101,72 @@ def rms(values):
     return float(np.sqrt(np.nanmean(np.square(values))))
 
 
-def error_of_profile(run, line, quantity):
-    """Standard error at a point, from what is not the same on both sides of the middle."""
-    values = bins(run, line)[1][quantity]
-    return rms(values - values[::-1]) / np.sqrt(2.0)
+def error_of_profile(profiles, line, quantity):
+    """rms of the standard errors of the bins."""
+    return rms(columns(profiles, line)[ERRORS[quantity]])
 
 
-def difference(run, velocity, line, height, quantity):
+def difference(profiles, velocity, line, height, quantity):
     """rms over the measured points of ours less the measured."""
-    x, values = bins(run, line)
+    x, values = bins(profiles, line)
     seen = np.isfinite(values[quantity])
     at, value = points(velocity, height, quantity)
     return rms(np.interp(at, x[seen], values[quantity][seen]) - value)
 
 
-def against_measurement(run, velocity, mesh):
+def against_measurement(profiles, velocity, mesh):
     """The rms difference of each measured line."""
     return [
         Comparison(f"rms difference, {line}, {velocity} m/s, {mesh} mesh", UNITS[quantity], 0.0,
-                   difference(run, velocity, line, height, quantity),
-                   error_of_profile(run, line, quantity), limits[velocity], relative=False,
+                   difference(profiles, velocity, line, height, quantity),
+                   error_of_profile(profiles, line, quantity), limits[velocity], relative=False,
                    decimals=4, run=name_of(velocity, mesh))
         for line, height, quantity, limits in LINES
         if velocity in limits
     ]  # fmt: skip
 
 
-def against_first(run, first, velocity, mesh):
-    """The rms difference of each line from that of the first mesh."""
+def against_other(profiles, velocity, mesh, other):
+    """The rms difference of each line from that of another mesh."""
     rows = []
     for line, _, quantity, _ in LINES:
-        ours, other = (bins(one, line)[1][quantity] for one in (run, first))
-        error = np.hypot(*(error_of_profile(one, line, quantity) for one in (run, first)))
+        ours, its = (bins(profiles[one], line)[1][quantity] for one in (mesh, other))
+        error = np.hypot(
+            *(error_of_profile(profiles[one], line, quantity) for one in (mesh, other))
+        )
         rows.append(Comparison(
-            f"{line}, {velocity} m/s, {mesh} against {next(iter(MESHES))}", UNITS[quantity], 0.0,
-            rms(ours - other), error, LIMIT_OF_ERRORS * error, relative=False, decimals=4,
+            f"{line}, {velocity} m/s, {mesh} against {other}", UNITS[quantity], 0.0,
+            rms(ours - its), error, LIMIT_OF_ERRORS * error, relative=False, decimals=4,
             run=name_of(velocity, mesh),
         ))  # fmt: skip
     return rows
 
 
+def profiles_of(results, velocity):
+    """The files of a velocity, by mesh."""
+    return {
+        mesh: results.kept_file(name_of(velocity, mesh), PROFILES)
+        for mesh in MESHES
+        if results.keeps(name_of(velocity, mesh))
+    }
+
+
 def evaluate(results):
-    """Each by itself, and the meshes against the first of them."""
+    """Each by itself, and the meshes against each other."""
     rows = []
     for velocity in VELOCITIES:
-        of_meshes = [
-            (mesh, results[name_of(velocity, mesh)])
-            for mesh in MESHES
-            if results.has(name_of(velocity, mesh))
-        ]
-        for mesh, run in of_meshes:
-            rows += against_measurement(run, velocity, mesh)
-        for mesh, run in of_meshes[1:]:
-            rows += against_first(run, of_meshes[0][1], velocity, mesh)
+        profiles = profiles_of(results, velocity)
+        for mesh, file in profiles.items():
+            rows += against_measurement(file, velocity, mesh)
+        for mesh, other in PAIRS:
+            if mesh in profiles and other in profiles:
+                rows += against_other(profiles, velocity, mesh, other)
     return rows
 
 
 def figure(results):
     """The lines, measured and ours, at the velocities of which there are runs."""
-    shown = [v for v in VELOCITIES if any(results.has(name_of(v, mesh)) for mesh in MESHES)]
+    shown = [v for v in VELOCITIES if profiles_of(results, v)]
     picture = new_figure(height=3.0 * len(shown))
     parts = picture.subplots(len(shown), len(LINES), squeeze=False)
     for row, velocity in zip(parts, shown):
@@ -159,9 +179,8 @@ def figure(results):
             if velocity in limits:
                 x, value = points(velocity, height, quantity)
                 axes.plot(x * 1e3, value, "o", color=GREY, markersize=2, label="measured")
-            for mesh, colour in zip(MESHES, (BLUE, GREEN, VERMILLION)):
-                if results.has(name_of(velocity, mesh)):
-                    x, values = bins(results[name_of(velocity, mesh)], line)
-                    axes.plot(x * 1e3, values[quantity], color=colour, label=mesh)
+            for mesh, file in profiles_of(results, velocity).items():
+                x, values = bins(file, line)
+                axes.plot(x * 1e3, values[quantity], color=COLOURS[mesh], label=mesh)
     parts[0][0].legend(fontsize=5)
     return picture

@@ -99,6 +99,8 @@ namespace graupel
     add_moment(BinSums &bin, const double *const totals, const double duration)
     {
       const double n = totals[number];
+      for (unsigned int i = 0; i < 3; ++i)
+        bin.velocity_blocks[i].add(duration * totals[velocity + i], duration * n);
       if (!(n > 0.))
         return;
       ++bin.seen;
@@ -223,7 +225,11 @@ namespace graupel
     const auto totals = ExactSum::totals(sums, dem.communicator());
     for (unsigned int bin = 0; bin < bins.size(); ++bin)
       if (volumes[bin] > 0.)
-        bins[bin].solid_fraction.add(totals[bin] / volumes[bin], duration);
+        {
+          const double solid_fraction = totals[bin] / volumes[bin];
+          bins[bin].solid_fraction.add(solid_fraction, duration);
+          bins[bin].solid_fraction_blocks.add(duration * solid_fraction, duration);
+        }
   }
 
   void

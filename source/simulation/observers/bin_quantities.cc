@@ -91,6 +91,19 @@ namespace graupel
     }
 
     Function
+    velocity_error(const unsigned int i)
+    {
+      return
+        [i](const BinView &view) { return view.sums.velocity_blocks[i].error_of_mean(); };
+    }
+
+    Value
+    solid_fraction_error(const BinView &view)
+    {
+      return view.sums.solid_fraction_blocks.error_of_mean();
+    }
+
+    Function
     velocity_rms(const unsigned int i)
     {
       return [i](const BinView &view) -> Value {
@@ -142,12 +155,23 @@ namespace graupel
        "-",
        "rms of the same about its mean",
        rms(&BinSums::solid_fraction)},
+      {"solid_fraction_error",
+       "-",
+       "standard error of that mean, by blocks of looks; empty where the time was too "
+       "short for one",
+       solid_fraction_error},
       {"velocity_x",
        "m/s",
        "mean velocity of the particles with their center in the bin",
        velocity(0)},
       {"velocity_y", "m/s", "the same", velocity(1)},
       {"velocity_z", "m/s", "the same", velocity(2)},
+      {"velocity_error_x",
+       "m/s",
+       "standard error of that mean, as of the solid fraction",
+       velocity_error(0)},
+      {"velocity_error_y", "m/s", "the same", velocity_error(1)},
+      {"velocity_error_z", "m/s", "the same", velocity_error(2)},
       {"velocity_rms_x",
        "m/s",
        "rms of the particles' velocities about that mean, over particles and time",

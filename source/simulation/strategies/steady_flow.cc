@@ -20,6 +20,9 @@ namespace graupel
     constexpr double most_carried = 0.93;
     // Between two looks at a bed that is held [s].
     constexpr double hold_piece = 5e-3;
+    // A bed that keeps its height, but has spheres that move still, is held on for up to so
+    // many times the ramp and the window.
+    constexpr unsigned int patience = 4;
   } // namespace
 
   SteadyFlow::SteadyFlow(FlowFrame &frame, const bool must_rest)
@@ -113,8 +116,10 @@ namespace graupel
     const double end    = ramp + sweep.steady_window;
     const auto   n      = static_cast<unsigned int>(std::ceil(end / hold_piece));
     double       last   = 1.; // factor on the forces now
-    for (unsigned int piece = 1; piece <= n; ++piece)
+    for (unsigned int piece = 1; piece <= patience * n; ++piece)
       {
+        if (piece > n && (!must_rest || state.parameters.settling.is_met_by(state.dem)))
+          break;
         const double part   = ramp > 0. ? std::min(1., piece * end / n / ramp) : 1.;
         const double factor = part + (1. - part) * before;
         for (dealii::Tensor<1, 3> &f : state.dem.particles().external_force)

@@ -4,6 +4,7 @@
 #ifndef graupel_simulation_observers_bin_averages_h
 #define graupel_simulation_observers_bin_averages_h
 
+#include <graupel/base/block_sums.h>
 #include <graupel/base/moments.h>
 #include <graupel/simulation/observers/quantity.h>
 #include <graupel/simulation/parameters/bin_grid.h>
@@ -30,8 +31,11 @@ namespace graupel
     /** Squared distance of their velocities from their mean at the same moment, over time
      * [m^2/s]; and particles less one, over time, where there are two [s]. */
     double agitation = 0., freedom = 0.;
+    /** Their velocities over time, and their number over time. */
+    std::array<BlockSums, 3> velocity_blocks;
     /** Of spheres cut by the bin's faces, over the bin's volume [-]. */
-    Moments solid_fraction;
+    Moments   solid_fraction;
+    BlockSums solid_fraction_blocks;
     /** Of the fluid, mean over the bin; no weight outside of the mesh. */
     Moments                void_fraction, pressure;
     std::array<Moments, 3> flux;

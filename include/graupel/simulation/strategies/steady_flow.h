@@ -44,7 +44,8 @@ namespace graupel
     bool find_flow();
     // Holds the bed against the force of the steady flow, which grows from
     // @p force_before [N], so that the walls carry what the fluid leaves them; where it
-    // must rest it ends when the bed rises. Relative change of the top of the bed [-].
+    // must rest it ends when the bed rises, and goes on for a while if spheres move still.
+    // Relative change of the top of the bed [-].
     double hold_particles(const double force_before);
 
     FlowFrame   &frame;
