@@ -83,6 +83,24 @@ TEST(ErrorOfMean, OfCorrelatedValues)
     }
 }
 
+// Law: the mean of n values of a process has the variance S(0)/n with the spectral density
+// S, which is that of e over |1 - a - b|^2 for x_k = a x_{k-1} + b x_{k-2} + e. This one
+// swings with a period of 20 and forgets within 20. Limit: as above; half of a period is
+// where blocks scatter most, four times as much.
+TEST(ErrorOfMean, OfWhatSwings)
+{
+  constexpr unsigned int n = 1u << 15;
+  const double           a = 2. * 0.95 * std::cos(2. * pi / 20.), b = -0.95 * 0.95;
+  auto                   x = chain(0., n);
+  for (unsigned int k = 2; k < n; ++k)
+    x[k] += a * x[k - 1] + b * x[k - 2];
+  const double right = 1. / (1. - a - b) / std::sqrt(n);
+  const auto   error = error_of_mean(x);
+  ASSERT_TRUE(error);
+  std::cout << *error << ", " << right << " expected\n";
+  EXPECT_NEAR(*error, right, 3. / std::sqrt(2. * n / 100.) * right);
+}
+
 TEST(ErrorOfMean, HasNoValueWhereAllHangsTogether)
 {
   std::vector<double> drift;

@@ -202,25 +202,40 @@ class Statistics(unittest.TestCase):
     """Errors of means."""
 
     def test_independent_values(self):
-        # The largest of a dozen estimates lies above s / sqrt(n), less than twofold.
         values = np.random.default_rng(1).normal(3.0, 0.5, 4096)
         mean, error = mean_with_error(values)
         expected = 0.5 / 64.0
         self.assertAlmostEqual(mean, 3.0, delta=4.0 * expected)
-        self.assertTrue(0.9 * expected < error < 2.0 * expected, error)
+        self.assertTrue(0.9 * expected < error < 1.2 * expected, error)
 
     def test_values_that_come_in_runs(self):
         # Each value sixteen times over tells no more than once.
         values = np.repeat(np.random.default_rng(2).normal(0.0, 1.0, 512), 16)
         _, error = mean_with_error(values)
-        self.assertTrue(0.9 / math.sqrt(512) < error < 2.0 / math.sqrt(512), error)
+        self.assertTrue(0.85 / math.sqrt(512) < error < 1.2 / math.sqrt(512), error)
+
+    def test_values_that_swing(self):
+        # Blocks of half a period scatter four times as much as tells of the mean: x follows
+        # x_k = a x_{k-1} + b x_{k-2} + e, whose spectrum at 0 is that of e over (1 - a - b)^2.
+        a, b = 2.0 * 0.95 * math.cos(2.0 * math.pi / 20.0), -(0.95**2)
+        x = np.random.default_rng(4).normal(0.0, 1.0, 16384)
+        for k in range(2, len(x)):
+            x[k] += a * x[k - 1] + b * x[k - 2]
+        expected = 1.0 / (1.0 - a - b) / 128.0
+        _, error = mean_with_error(x)
+        self.assertTrue(0.8 * expected < error < 1.25 * expected, error)
+
+    def test_values_that_drift(self):
+        # No blocks are independent: the longest, an eighth of the range each.
+        _, error = mean_with_error(np.arange(256.0))
+        self.assertAlmostEqual(error, 32.0 * math.sqrt(6.0 / 8.0), delta=1e-9)
 
     def test_the_rms_of_independent_values(self):
         values = np.random.default_rng(3).normal(3.0, 0.5, 4096)
         rms, error = rms_with_error(values)
         expected = 0.5 / math.sqrt(2.0 * 4096)
         self.assertAlmostEqual(rms, 0.5, delta=4.0 * expected)
-        self.assertTrue(0.9 * expected < error < 2.0 * expected, error)
+        self.assertTrue(0.9 * expected < error < 1.2 * expected, error)
 
     def test_how_often_a_wave_rises(self):
         time = np.linspace(0.0, 8.0, 4001)

@@ -13,12 +13,15 @@ namespace graupel
   /**
    * The standard error of a mean over time, from looks that hang together over some time
    * and come one by one: the mean is the sum of all `value` over the sum of all `weight`.
-   * Neighbours are joined to blocks of 2, 4, 8, ..., whose means scatter the less by
-   * chance the longer they are. Holds sums only; trivially copyable, for checkpoints.
+   * Neighbours are joined to blocks of 2, 4, 8, ... looks until neighbouring blocks no
+   * longer know of each other; then the scatter of their means tells the error. Blocks of
+   * half a period of what swings, bubbles say, scatter most, but do know of each other.
+   * Holds sums only; trivially copyable, for checkpoints.
    *
    * Source: Flyvbjerg & Petersen, Error estimates on averages of correlated data (1989),
-   * doi:10.1063/1.457480; a ratio by its residuals, Cochran, Sampling techniques (1977),
-   * section 6.4.
+   * doi:10.1063/1.457480; the length of the blocks: Jonsson, Standard error estimation by
+   * an automated blocking method (2018), doi:10.1103/PhysRevE.98.043304; a ratio by its
+   * residuals: Cochran, Sampling techniques (1977), section 6.4.
    */
   class BlockSums
   {
@@ -28,9 +31,10 @@ namespace graupel
     void add(double value, double weight);
 
     /**
-     * What the error comes to once blocks are independent: the first estimate that no
-     * later one exceeds by more than its own uncertainty. Nothing where there is none, as
-     * the looks hang together over too much of the time, and for fewer than 16.
+     * By the shortest blocks that, like all longer ones of which there are eight, are
+     * independent by their correlation, at a confidence of 95 %. Nothing where there are
+     * none, as the looks hang together over too much of the time, and for fewer than 16
+     * looks.
      */
     std::optional<double> error_of_mean() const;
 
@@ -41,9 +45,11 @@ namespace graupel
     {
       std::uint64_t blocks = 0;
       double        values = 0., weights = 0.;
-      double        values_squared = 0., product = 0., weights_squared = 0.;
-      /** The last block while it has no neighbour. */
-      double waiting_value = 0., waiting_weight = 0.;
+      /** Sums over the blocks, and over neighbours, of value by value, value by weight,
+       * and weight by weight. */
+      std::array<double, 3> squares{}, neighbours{};
+      /** The last block. */
+      double value = 0., weight = 0.;
     };
 
     /** Blocks of up to 2^19 looks. */
