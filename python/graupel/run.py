@@ -327,3 +327,12 @@ def grid_of(table, name):
     values = np.full((len(z), len(x)), math.nan)
     values[at_z, at_x] = table[name]
     return x, z, values
+
+
+def of_grids(table):
+    """The rows of each line or plane of a table, by its name."""
+    names = list(dict.fromkeys(table["name"]))
+    return {
+        name: {column: values[table["name"] == name] for column, values in table.items()}
+        for name in names
+    }

@@ -10,8 +10,8 @@ measured, and case.py with
     evaluate(results)     the list of its Comparisons, from the runs (kept.RunsWithKept),
                           each with the name of its run
     figure(results)       its picture
-    KEPT                  files of a run that the page keeps; a case that has them evaluates and
-                          draws the runs of which they are there, and may leave KEPT out
+    KEPT                  optional: files of a run that the page keeps; the case evaluates and
+                          draws all runs of which they are kept
 
 A case whose runs are not all there is evaluated from those that are; what the page has of
 the others stays.

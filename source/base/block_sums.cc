@@ -32,11 +32,8 @@ namespace graupel
   void
   BlockSums::add(double value, double weight)
   {
-    if (!has_first && weight > 0.)
-      {
-        first     = value / weight;
-        has_first = true;
-      }
+    if (weight > 0. && !(levels[0].weights > 0.))
+      first = value / weight;
     value -= first * weight;
     for (Level &level : levels)
       {

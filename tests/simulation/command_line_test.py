@@ -8,7 +8,7 @@ import pathlib
 import tempfile
 import unittest
 
-from runs import ROOT, call, main
+from runs import ROOT, call, main, overrides
 
 from common.program import FAULT
 
@@ -198,13 +198,9 @@ class AutomaticFlow(unittest.TestCase):
         # So short a window that some move still at its end, in a bed that keeps its height.
         strict = {"Settling/interval": 1e-3, "Settling/kinetic energy": 1e-13}
         short = {"Flow/ramp time": 1e-3, "Flow/steady window": 5e-3, "Flow/time step": "auto"}
-
-        def settings(values):
-            return [text for name, value in values.items() for text in ("--set", f"{name}={value}")]
-
-        late, told = self.flow("late", "automatic", "0.3, 0.6", *settings({**strict, **short}))
+        late, told = self.flow("late", "automatic", "0.3, 0.6", *overrides({**strict, **short}))
         self.assertNotIn("does not rest", told)
-        still, _ = self.flow("calm", "automatic", "0.3, 0.6", *settings(strict))
+        still, _ = self.flow("calm", "automatic", "0.3, 0.6", *overrides(strict))
         for one, other in zip(late, still):
             self.assertAlmostEqual(one["pressure_drop"] / other["pressure_drop"], 1.0, delta=2e-3)
 

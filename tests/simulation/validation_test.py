@@ -118,7 +118,9 @@ class Evaluations(RunTest):
         self.assertEqual(len(at), 22, "points seen by magnetic resonance, without simulations")
         expected = math.sqrt(np.mean((0.6 - at / 0.44 - value) ** 2))
         profiles = self.profiles("output", "0.6-coarse", 0.4)
-        off = mueller.difference(profiles, 0.6, "void-16", 0.0164, "void_fraction")
+        off = mueller.difference(
+            mueller.lines_of(profiles)["void-16"], 0.6, 0.0164, "void_fraction"
+        )
         self.assertAlmostEqual(off, expected, places=9)
 
     def profiles(self, folder, run, at_wall):

@@ -55,8 +55,7 @@ namespace graupel
     /** Blocks of up to 2^19 looks. */
     std::array<Level, 20> levels{};
     /** The first mean of a look that there was. */
-    double first     = 0.;
-    bool   has_first = false;
+    double first = 0.;
   };
 } // namespace graupel
 

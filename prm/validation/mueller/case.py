@@ -2,11 +2,10 @@
 # Copyright (C) 2026 The Graupel authors
 """A bubbling bed seen by magnetic resonance: Mueller et al. (2008, 2009)."""
 
-import csv
-
 import numpy as np
 
 from graupel.report.style import BLUE, GREEN, GREY, PURPLE, VERMILLION, new_figure
+from graupel.run import of_grids, read_table
 from validation_parts.case import FOLDER, Comparison, Run, measured
 
 TITLE = "Bubbling bed of 44 mm x 10 mm at 0.6 and 0.9 m/s: void fraction and particle velocity"
@@ -48,6 +47,7 @@ COLOURS = dict(zip(MESHES, (BLUE, GREEN, VERMILLION, PURPLE)))
 LIMIT_OF_ERRORS = 3.0
 UNITS = {"void_fraction": "-", "particle_velocity_z": "m/s"}
 ERRORS = {"void_fraction": "solid_fraction_error", "particle_velocity_z": "velocity_error_z"}
+COLUMNS = ("name", "x", "solid_fraction", "velocity_z", *ERRORS.values())
 
 
 def name_of(velocity, mesh):
@@ -56,7 +56,7 @@ def name_of(velocity, mesh):
 
 
 def runs(quick):
-    """Both velocities on all meshes, half an hour to two hours each; a moment if quick."""
+    """Both velocities on all meshes, a quarter of an hour to a whole one each; a moment if quick."""
     if quick:
         moment = {"Flow/duration": 0.05, "Averages/from": 0.01, "Averages/to": 0.05}
         return [Run(name_of(0.6, "coarse"), EXAMPLE, moment)]
@@ -67,21 +67,16 @@ def runs(quick):
     ]
 
 
-def columns(profiles, line):
-    """The columns of a line in the file of a run, numbers."""
-    with open(profiles, newline="", encoding="utf-8") as file:
-        rows = [row for row in csv.DictReader(file) if row.pop("name") == line]
-    return {
-        key: np.array([float(row[key]) if row[key] else np.nan for row in rows]) for key in rows[0]
-    }
+def lines_of(file):
+    """Columns of each line of bins in the file of a run, by the name of the line."""
+    return of_grids(read_table(file, COLUMNS, []))
 
 
-def bins(profiles, line):
+def bins(columns):
     """Distance from the side wall [m], void fraction by particle volumes, and velocity [m/s]."""
-    of_line = columns(profiles, line)
-    return of_line["x"] + WIDTH / 2.0, {
-        "void_fraction": 1.0 - of_line["solid_fraction"],
-        "particle_velocity_z": of_line["velocity_z"],
+    return columns["x"] + WIDTH / 2.0, {
+        "void_fraction": 1.0 - columns["solid_fraction"],
+        "particle_velocity_z": columns["velocity_z"],
     }
 
 
@@ -101,25 +96,25 @@ def rms(values):
     return float(np.sqrt(np.nanmean(np.square(values))))
 
 
-def error_of_profile(profiles, line, quantity):
+def error_of_profile(columns, quantity):
     """rms of the standard errors of the bins."""
-    return rms(columns(profiles, line)[ERRORS[quantity]])
+    return rms(columns[ERRORS[quantity]])
 
 
-def difference(profiles, velocity, line, height, quantity):
+def difference(columns, velocity, height, quantity):
     """rms over the measured points of ours less the measured."""
-    x, values = bins(profiles, line)
+    x, values = bins(columns)
     seen = np.isfinite(values[quantity])
     at, value = points(velocity, height, quantity)
     return rms(np.interp(at, x[seen], values[quantity][seen]) - value)
 
 
-def against_measurement(profiles, velocity, mesh):
+def against_measurement(lines, velocity, mesh):
     """The rms difference of each measured line."""
     return [
         Comparison(f"rms difference, {line}, {velocity} m/s, {mesh} mesh", UNITS[quantity], 0.0,
-                   difference(profiles, velocity, line, height, quantity),
-                   error_of_profile(profiles, line, quantity), limits[velocity], relative=False,
+                   difference(lines[line], velocity, height, quantity),
+                   error_of_profile(lines[line], quantity), limits[velocity], relative=False,
                    decimals=4, run=name_of(velocity, mesh))
         for line, height, quantity, limits in LINES
         if velocity in limits
@@ -130,10 +125,9 @@ def against_other(profiles, velocity, mesh, other):
     """The rms difference of each line from that of another mesh."""
     rows = []
     for line, _, quantity, _ in LINES:
-        ours, its = (bins(profiles[one], line)[1][quantity] for one in (mesh, other))
-        error = np.hypot(
-            *(error_of_profile(profiles[one], line, quantity) for one in (mesh, other))
-        )
+        both = [profiles[one][line] for one in (mesh, other)]
+        ours, its = (bins(columns)[1][quantity] for columns in both)
+        error = np.hypot(*(error_of_profile(columns, quantity) for columns in both))
         rows.append(Comparison(
             f"{line}, {velocity} m/s, {mesh} against {other}", UNITS[quantity], 0.0,
             rms(ours - its), error, LIMIT_OF_ERRORS * error, relative=False, decimals=4,
@@ -143,9 +137,9 @@ def against_other(profiles, velocity, mesh, other):
 
 
 def profiles_of(results, velocity):
-    """The files of a velocity, by mesh."""
+    """The lines of the runs of a velocity, by mesh."""
     return {
-        mesh: results.kept_file(name_of(velocity, mesh), PROFILES)
+        mesh: lines_of(results.kept_file(name_of(velocity, mesh), PROFILES))
         for mesh in MESHES
         if results.keeps(name_of(velocity, mesh))
     }
@@ -156,8 +150,8 @@ def evaluate(results):
     rows = []
     for velocity in VELOCITIES:
         profiles = profiles_of(results, velocity)
-        for mesh, file in profiles.items():
-            rows += against_measurement(file, velocity, mesh)
+        for mesh, lines in profiles.items():
+            rows += against_measurement(lines, velocity, mesh)
         for mesh, other in PAIRS:
             if mesh in profiles and other in profiles:
                 rows += against_other(profiles, velocity, mesh, other)
@@ -166,10 +160,11 @@ def evaluate(results):
 
 def figure(results):
     """The lines, measured and ours, at the velocities of which there are runs."""
-    shown = [v for v in VELOCITIES if profiles_of(results, v)]
+    of_all = {velocity: profiles_of(results, velocity) for velocity in VELOCITIES}
+    shown = {velocity: profiles for velocity, profiles in of_all.items() if profiles}
     picture = new_figure(height=3.0 * len(shown))
     parts = picture.subplots(len(shown), len(LINES), squeeze=False)
-    for row, velocity in zip(parts, shown):
+    for row, (velocity, profiles) in zip(parts, shown.items()):
         for axes, (line, height, quantity, limits) in zip(row, LINES):
             name = "void fraction" if quantity == "void_fraction" else "velocity"
             axes.set_title(f"{name} [{UNITS[quantity]}], {height * 1e3:g} mm, {velocity} m/s",
@@ -179,8 +174,8 @@ def figure(results):
             if velocity in limits:
                 x, value = points(velocity, height, quantity)
                 axes.plot(x * 1e3, value, "o", color=GREY, markersize=2, label="measured")
-            for mesh, file in profiles_of(results, velocity).items():
-                x, values = bins(file, line)
+            for mesh, lines in profiles.items():
+                x, values = bins(lines[line])
                 axes.plot(x * 1e3, values[quantity], color=COLOURS[mesh], label=mesh)
     parts[0][0].legend(fontsize=5)
     return picture

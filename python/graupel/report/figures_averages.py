@@ -5,7 +5,7 @@
 import numpy as np
 from matplotlib.colors import Normalize
 
-from ..run import grid_of
+from ..run import grid_of, of_grids
 from .style import BLACK, BLUE, GREY, MILLI, VERMILLION
 from .style import NotOfThisRun, colour_of_each, known, legend_beside, new_figure
 
@@ -36,15 +36,6 @@ def averages_of(run, stem):
     if not tables:
         raise NotOfThisRun("there are no averages")
     return sorted(tables.items(), reverse=True)
-
-
-def of_grids(table):
-    """The rows of each line or plane of a table, by its name."""
-    names = list(dict.fromkeys(table["name"]))
-    return {
-        name: {column: values[table["name"] == name] for column, values in table.items()}
-        for name in names
-    }
 
 
 def lines(run, paper):
