@@ -62,7 +62,7 @@ class Trial:
                     file.unlink()
         self.log.parent.mkdir(exist_ok=True)
         if not (self.tree / "build" / "build.ninja").exists():
-            if self.run(["cmake", "--preset", "release"], BUILD) != 0:
+            if self.run(["cmake", "--preset", "release", "-DGRAUPEL_JOINED=OFF"], BUILD) != 0:
                 raise RuntimeError(f"it cannot be configured: {self.log}")
 
     def run(self, command, limit):

@@ -14,13 +14,13 @@ namespace graupel
   {
     /** Expressions of x, y, z [m] and t [s]; a vector is three, by semicolons. */
     std::string void_fraction     = "1";
-    std::string velocity          = ""; // empty: no manufactured solution
+    std::string velocity          = {}; // empty: no manufactured solution
     std::string pressure          = "0";
     std::string drag              = "0";
     std::string particle_velocity = "0; 0; 0";
     /** f and s; empty: derived. */
-    std::string force         = "";
-    std::string volume_source = "";
+    std::string force         = {};
+    std::string volume_source = {};
     /** Simulated time; 0: the steady state [s]. */
     double duration = 0.;
 

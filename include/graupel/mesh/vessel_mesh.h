@@ -27,7 +27,7 @@ namespace graupel
     /** Aimed-at height of a cell [m]; 0: as across. */
     double cell_height = 0.;
     /** A Gmsh file; empty: the cylinder is meshed. */
-    std::string file = "";
+    std::string file = {};
 
     void declare(dealii::ParameterHandler &prm);
     void check(const Cylinder &cylinder) const;

@@ -81,7 +81,7 @@ namespace graupel
     }
 
     Function
-    velocity(const unsigned int i)
+    mean_velocity(const unsigned int i)
     {
       return [i](const BinView &view) -> Value {
         if (!(view.sums.particles > 0.))
@@ -163,9 +163,9 @@ namespace graupel
       {"velocity_x",
        "m/s",
        "mean velocity of the particles with their center in the bin",
-       velocity(0)},
-      {"velocity_y", "m/s", "the same", velocity(1)},
-      {"velocity_z", "m/s", "the same", velocity(2)},
+       mean_velocity(0)},
+      {"velocity_y", "m/s", "the same", mean_velocity(1)},
+      {"velocity_z", "m/s", "the same", mean_velocity(2)},
       {"velocity_error_x",
        "m/s",
        "standard error of that mean, as of the solid fraction",

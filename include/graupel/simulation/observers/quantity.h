@@ -32,8 +32,8 @@ namespace graupel
     /** Collective; the same on every rank. */
     std::function<Value(const Seen &)> value;
     /** How the log calls it, and the factor and unit there; empty: not told. */
-    std::string told        = "";
-    std::string told_unit   = "";
+    std::string told        = {};
+    std::string told_unit   = {};
     double      told_factor = 1.;
   };
 
