@@ -15,6 +15,8 @@ namespace graupel
     constexpr double outside = 0.4, inside = 0.6;
     // Not even spheres in the densest order leave less void [-].
     constexpr double densest = 0.26;
+    // Solid fraction of spheres packed at random as densely as they can be [-].
+    constexpr double random_packing = 0.64;
     // Less than this is no void fraction of spheres, whatever the filter's overshoot [-].
     constexpr double impossible = 0.1;
     // A bed is no looser than the second; what is looser than the first is none [-].
@@ -181,6 +183,32 @@ namespace graupel
     return alpha;
   }
 
+  std::vector<double>
+  Exchange::solid_fractions() const
+  {
+    std::vector<double> solid;
+    for (const double alpha : law_alpha)
+      solid.push_back(1. - alpha);
+    return solid;
+  }
+
+  void
+  Exchange::look_ahead(const ParticleArrays &particles)
+  {
+    next_alpha = law_alpha;
+    if (response.step_before == 0.)
+      return;
+    const double ahead = 0.5 * response.step / response.step_before;
+    for (unsigned int row = 0; row < next_alpha.size(); ++row)
+      if (const double before = particles.solid_fraction[row]; before > 0.)
+        {
+          const double now  = 1. - law_alpha[row];
+          const double most = std::max(now, std::min(random_packing, 2. * now));
+          next_alpha[row] =
+            1. - std::clamp(now + ahead * (now - before), 0.5 * now, most);
+        }
+  }
+
   void
   Exchange::find_solid_gradient()
   {
@@ -201,7 +229,7 @@ namespace graupel
                                    const dealii::Tensor<1, 3> &slip_velocity) const
   {
     const double speed = slip_velocity.norm();
-    const double here  = law_alpha[row];
+    const double here  = next_alpha[row];
     if (law.upstream == 0. || !(speed > 0.))
       return here;
     const double difference = response.looseness[row] * law.upstream * diameter *

@@ -93,6 +93,61 @@ TEST(LongSteps, AFreeParticleAnswersAndOneInBalanceStays)
   EXPECT_EQ(released(2.), 0u);
 }
 
+TEST(LongSteps, TheDragIsThatOfTheSurroundingsInTheMiddleOfTheStep)
+{
+  // In a fluid so viscous that the drag knows no Reynolds number.
+  const double dt       = 1e-3;
+  auto         settings = glass(FluidProperties{1.2, 1e3}, "wen-yu", 3e-3, 60e-3, 1e-3);
+  Tube         tube(settings, layers_of(3e-3, 8));
+  auto        &particles = tube.dem.particles();
+  tube.step_fluid(dt);
+  tube.exchange.update_bed(tube.dem.store(), particles);
+  const auto solid = tube.exchange.solid_fractions();
+  // By what the force on a sphere falls where it moves by 1 m/s with the fluid.
+  const auto coefficients = [&](const double step_before) {
+    std::vector<double> result(particles.n_owned);
+    for (const double velocity : {0., 1.})
+      {
+        auto response        = held_response(particles);
+        response.step        = dt;
+        response.step_before = step_before;
+        for (auto &v : response.velocity)
+          v[2] = velocity;
+        tube.exchange.update_drag(particles, response);
+        const auto force =
+          tube.exchange.forces(particles, tube.flow, settings.fluid.density, {});
+        for (unsigned int row = 0; row < result.size(); ++row)
+          result[row] += (1. - 2. * velocity) * force[row][2];
+      }
+    return result;
+  };
+  const auto   before   = coefficients(0.);
+  const auto   law      = settings.drag();
+  const double radius   = 0.5 * settings.particle;
+  const auto   of_solid = [&](const double phi) {
+    const double alpha = 1. - phi;
+    return law.beta(alpha, 1e-3, radius) / (alpha * alpha);
+  };
+  // What it was, over what it is; the step over the last one; what it will be.
+  for (const auto &[was, steps, will_be] :
+       {std::tuple(1.2, 1., 0.9), std::tuple(0.9, 2., 1.1), std::tuple(3., 1., 0.5)})
+    {
+      for (unsigned int row = 0; row < solid.size(); ++row)
+        particles.solid_fraction[row] = was * solid[row];
+      const auto after = coefficients(dt / steps);
+      for (unsigned int row = 0; row < solid.size(); ++row)
+        // Of those within, whose own mark the others hide.
+        if (solid[row] > 0.4 && will_be * solid[row] < 0.64)
+          EXPECT_NEAR(after[row] / before[row],
+                      of_solid(will_be * solid[row]) / of_solid(solid[row]),
+                      2e-3);
+    }
+  // Of a sphere that has just come nothing is known.
+  for (double &phi : particles.solid_fraction)
+    phi = 0.;
+  EXPECT_EQ(coefficients(dt), before);
+}
+
 TEST(LongSteps, ABedAtRestHasTheSameFlowWithAnyStep)
 {
   // Glass in air and in water, at up to twenty times the limit. 1e-4: the slip of the

@@ -130,16 +130,19 @@ namespace graupel
       dem.synchronise();
       exchange.update_bed(dem.store(), particles);
       if (contact)
-        exchange.update_drag(
-          particles,
-          particle_response(
-            particles, contact, settings.gravity, settings.fluid.density, dt));
+        {
+          auto response = particle_response(
+            particles, contact, settings.gravity, settings.fluid.density, dt);
+          response.step_before = flow.history().last_step;
+          exchange.update_drag(particles, response);
+        }
       else
         exchange.update_drag(particles);
       flow.step(exchange.medium(), dt);
       particles.external_force =
         exchange.forces(particles, flow, settings.fluid.density, settings.gravity);
       particles.external_torque = exchange.torques(particles, dt);
+      particles.solid_fraction  = exchange.solid_fractions();
       // From rest next to nothing is exchanged, beside which round-off is large.
       EXPECT_LE(exchange.momentum_imbalance(), is_from_rest ? 1e-9 : settings.imbalance);
       is_from_rest = false;

@@ -14,7 +14,8 @@ namespace graupel
     parcel.type = p.type[row];
     parcel.mass = p.mass[row];
     std::memcpy(parcel.body.data(), &p.body[row], sizeof(Body));
-    parcel.load = p.load[row].quanta;
+    parcel.load           = p.load[row].quanta;
+    parcel.solid_fraction = p.solid_fraction[row];
     for (unsigned int d = 0; d < 3; ++d)
       {
         parcel.external_force[d]  = p.external_force[row][d];
@@ -26,10 +27,11 @@ namespace graupel
   void
   unpack(const Parcel &parcel, ParticleArrays &p, const unsigned int row)
   {
-    p.type[row]        = parcel.type;
-    p.mass[row]        = parcel.mass;
-    p.body[row]        = body_of(parcel);
-    p.load[row].quanta = parcel.load;
+    p.type[row]           = parcel.type;
+    p.mass[row]           = parcel.mass;
+    p.body[row]           = body_of(parcel);
+    p.load[row].quanta    = parcel.load;
+    p.solid_fraction[row] = parcel.solid_fraction;
     for (unsigned int d = 0; d < 3; ++d)
       {
         p.external_force[row][d]  = parcel.external_force[d];

@@ -17,6 +17,7 @@ namespace graupel
     load.resize(n_rows);
     external_force.resize(n_rows);
     external_torque.resize(n_rows);
+    solid_fraction.resize(n_rows);
   }
 
   double

@@ -231,6 +231,7 @@ namespace graupel
             p.load[*row]            = p.load[last];
             p.external_force[*row]  = p.external_force[last];
             p.external_torque[*row] = p.external_torque[last];
+            p.solid_fraction[*row]  = p.solid_fraction[last];
             label_of_row[*row]      = label_of_row[last];
             if (label_of_row[*row] != no_row)
               row_of_label[label_of_row[*row]] = *row;
@@ -460,6 +461,7 @@ namespace graupel
     rearrange(particles.load, old_row);
     rearrange(particles.external_force, old_row);
     rearrange(particles.external_torque, old_row);
+    rearrange(particles.solid_fraction, old_row);
     particles.n_owned = n;
     row_of_label = label_of_row = same_rows(n);
     for (const auto &[rank, delivery] : received)

@@ -86,7 +86,7 @@ namespace graupel
 
     // The first line of what the program writes for itself.
     // The last number is raised whenever a record changes between two versions.
-    const std::string first_line = "Graupel " GRAUPEL_VERSION ", records 2";
+    const std::string first_line = "Graupel " GRAUPEL_VERSION ", records 3";
 
     // The particles in a file behind a first line and what @p write_head puts into an
     // archive. Collective.

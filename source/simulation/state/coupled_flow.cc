@@ -176,6 +176,8 @@ namespace graupel
       return dem.contact_force(row);
     };
     auto response = particle_response(bed, contact_force, gravity, density, step);
+    if (const double before = solver->history().last_step; std::isfinite(before))
+      response.step_before = before;
     particles_and_fluid->update_drag(bed, response);
     unsigned int solutions   = 0;
     const auto   comes_loose = [&] {
@@ -211,6 +213,7 @@ namespace graupel
     dem.particles().external_force = particles_and_fluid->forces(
       dem.particles(), *solver, parameters.fluid.density, parameters.dem.gravity());
     dem.particles().external_torque = particles_and_fluid->torques(dem.particles(), step);
+    dem.particles().solid_fraction  = particles_and_fluid->solid_fractions();
     longest_step                    = particles_and_fluid->stable_step(dem.particles());
   }
 

@@ -17,12 +17,14 @@ namespace graupel
     std::array<std::int64_t, 8> load{};            // as Load
     std::array<double, 3>       external_force{};  // [N]
     std::array<double, 3>       external_torque{}; // [N m]
+    double                      solid_fraction = 0.;
 
     template <class Archive>
     void
     serialize(Archive &archive, const unsigned int)
     {
       archive &type &mass &body &load &external_force &external_torque;
+      archive                                         &solid_fraction;
     }
   };
 
