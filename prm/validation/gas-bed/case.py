@@ -78,7 +78,9 @@ def statistics(run, case):
         ("mean of the drop over the weight", "-", *mean_with_error(drop)),
         ("rms of the drop over the weight", "-", *rms_with_error(drop)),
         ("rises of the drop through its mean", "Hz", *crossings_with_error(time, drop)),
-    )
+        ("height of the center of mass", "mm",
+         *mean_with_error(1e3 * series(run, case, "center_of_mass"))),
+    )  # fmt: skip
 
 
 def against_weight(name, run, case):
