@@ -16,10 +16,9 @@ namespace graupel
     constexpr std::uint64_t fewest_blocks = 8;
     // What chi-squared of 1, 2, ... degrees of freedom is below at 95 % (Abramowitz &
     // Stegun, table 26.8).
-    constexpr double chi_squared[] = {3.841,  5.991,  7.815,  9.488,  11.070,
-                                      12.592, 14.067, 15.507, 16.919, 18.307,
-                                      19.675, 21.026, 22.362, 23.685, 24.996,
-                                      26.296, 27.587, 28.869, 30.144, 31.410};
+    constexpr double chi_squared[] = {
+      3.841,  5.991,  7.815,  9.488,  11.070, 12.592, 14.067, 15.507, 16.919, 18.307,
+      19.675, 21.026, 22.362, 23.685, 24.996, 26.296, 27.587, 28.869, 30.144, 31.410};
 
     // Sum of the products of (value - mean weight).
     double
@@ -67,11 +66,11 @@ namespace graupel
         const double mean    = level.values / level.weights;
         const double scatter = std::max(0., residual(level.squares, mean));
         errors.push_back(std::sqrt(scatter * n / (n - 1.)) / level.weights);
-        // Independent ones correlate by -(n - 1)/n^2 in the mean, as they have the mean in
-        // common, with the variance 1/n.
-        const double away = scatter > 0.
-                              ? residual(level.neighbours, mean) / scatter + (n - 1.) / n / n
-                              : 0.;
+        // Independent ones correlate by -(n - 1)/n^2 in the mean, as they have the mean
+        // in common, with the variance 1/n.
+        const double away =
+          scatter > 0. ? residual(level.neighbours, mean) / scatter + (n - 1.) / n / n
+                       : 0.;
         correlations.push_back(n * away * away);
       }
     std::optional<double> error;

@@ -165,8 +165,7 @@ namespace graupel
   Exchange::update_drag(const ParticleArrays &particles)
   {
     const CostSheet::Scope timing(costs, CostSheet::exchange);
-    response   = held_response(particles);
-    next_alpha = law_alpha;
+    response = held_response(particles);
     find_drag_coefficients(particles);
     find_added_forces(particles);
     answer.assign(particles.n_owned, 1.);
@@ -189,7 +188,6 @@ namespace graupel
   {
     const CostSheet::Scope timing(costs, CostSheet::exchange);
     response = particle_response;
-    look_ahead(particles);
     find_drag_coefficients(particles);
     find_added_forces(particles);
     find_answers();

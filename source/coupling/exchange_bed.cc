@@ -196,9 +196,10 @@ namespace graupel
   Exchange::look_ahead(const ParticleArrays &particles)
   {
     next_alpha = law_alpha;
-    if (response.step_before == 0.)
+    const double ahead =
+      response.step_before > 0. ? 0.5 * response.step / response.step_before : 0.;
+    if (ahead == 0.)
       return;
-    const double ahead = 0.5 * response.step / response.step_before;
     for (unsigned int row = 0; row < next_alpha.size(); ++row)
       if (const double before = particles.solid_fraction[row]; before > 0.)
         {

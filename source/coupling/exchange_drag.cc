@@ -29,6 +29,7 @@ namespace graupel
   void
   Exchange::find_drag_coefficients(const ParticleArrays &particles)
   {
+    look_ahead(particles);
     const unsigned int n = particles.n_owned;
     felt_velocity        = transfer.sample(smooth_velocity);
     beta.resize(n);

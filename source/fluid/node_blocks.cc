@@ -89,7 +89,8 @@ namespace graupel
         for (; k < starts[row + 1]; ++k, column += 4)
           sum[0] += unknowns_of(column, 0) * from[nodes[k]];
         sum[0] = (sum[0] + sum[1]) + (sum[2] + sum[3]);
-        sum[0].copy_to(product.begin() + std::size_t{4} * row, std::experimental::element_aligned);
+        sum[0].copy_to(product.begin() + std::size_t{4} * row,
+                       std::experimental::element_aligned);
       }
     x.zero_out_ghost_values();
   }

@@ -25,7 +25,8 @@ namespace graupel
     std::vector<double> looseness;
     /** The fluid's step [s]; infinite for one that seeks a steady flow. */
     double step = std::numeric_limits<double>::infinity();
-    /** The one before it [s]; 0: none that this one goes on from. */
+    /** The one before it [s]; 0: none that this one goes on from; infinite: a steady
+     * flow. */
     double step_before = 0.;
   };
 

@@ -25,7 +25,8 @@ namespace graupel
   inline NodeUnknowns
   unknowns_of(const float *const values, const unsigned int node)
   {
-    return NodeUnknowns(values + std::size_t{4} * node, std::experimental::element_aligned);
+    return NodeUnknowns(values + std::size_t{4} * node,
+                        std::experimental::element_aligned);
   }
 
   /** Sum of the products of @p length entries with the values of their columns. */

@@ -175,9 +175,8 @@ namespace graupel
     const auto                 contact_force = [&](const unsigned int row) {
       return dem.contact_force(row);
     };
-    auto response = particle_response(bed, contact_force, gravity, density, step);
-    if (const double before = solver->history().last_step; std::isfinite(before))
-      response.step_before = before;
+    auto response        = particle_response(bed, contact_force, gravity, density, step);
+    response.step_before = solver->history().last_step;
     particles_and_fluid->update_drag(bed, response);
     unsigned int solutions   = 0;
     const auto   comes_loose = [&] {

@@ -74,7 +74,8 @@ namespace graupel
     std::vector<dealii::Tensor<1, 3>> external_torque;
     /**
      * Solid fraction around it at the last step of a fluid, which wants to know at the
-     * next how that changes; it travels with the particle [-]; 0: none yet; own rows only.
+     * next how that changes; it travels with the particle [-]; 0: none yet; own rows
+     * only.
      */
     std::vector<double> solid_fraction;
     /** Number of own particles. */
